@@ -1,0 +1,3 @@
+"""The project's one version number."""
+
+__version__ = "0.1.0"

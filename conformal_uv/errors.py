@@ -1,0 +1,107 @@
+"""The typed errors: every refusal says what came in, where, and what to do about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import islice
+
+__all__ = [
+    "Cancelled",
+    "ConformalUVError",
+    "ConvergenceError",
+    "DegenerateFaceError",
+    "DisconnectedError",
+    "DuplicateFaceError",
+    "FileFormatError",
+    "MeshError",
+    "MissingDependencyError",
+    "NonFiniteError",
+    "NonManifoldError",
+    "OptionError",
+    "OrientationError",
+    "SolverError",
+    "TopologyError",
+    "UnreferencedVertexError",
+    "listed",
+]
+
+
+class ConformalUVError(Exception):
+    """Base of every error raised on purpose by this package.
+
+    Attributes
+    ----------
+    indices : tuple of int
+        The vertices or faces the message speaks of (all of them), empty where none can be named.
+    """
+
+    def __init__(self, message: str, indices: Iterable[int] = ()) -> None:
+        super().__init__(message)
+        self.indices = tuple(int(i) for i in indices)
+
+
+class MeshError(ConformalUVError, ValueError):
+    """The mesh can not be mapped as it is."""
+
+
+class NonFiniteError(MeshError):
+    """A vertex has a coordinate that is NaN or infinite."""
+
+
+class DegenerateFaceError(MeshError):
+    """A face repeats a vertex or has no area."""
+
+
+class DuplicateFaceError(MeshError):
+    """Two faces have the same three vertices."""
+
+
+class NonManifoldError(MeshError):
+    """An edge has three or more faces, or the faces at a vertex do not form one fan."""
+
+
+class OrientationError(MeshError):
+    """Neighbouring faces are wound in opposite senses, or the surface has only one side."""
+
+
+class UnreferencedVertexError(MeshError):
+    """Vertices that belong to no face."""
+
+
+class DisconnectedError(MeshError):
+    """The mesh is in several pieces."""
+
+
+class TopologyError(MeshError):
+    """The surface is not of the type that the map needs (closed, several boundary loops, handles)."""
+
+
+class OptionError(ConformalUVError, ValueError):
+    """An option has a value that it does not take, or that does not fit this mesh."""
+
+
+class FileFormatError(ConformalUVError, ValueError):
+    """A file can not be read or written as a mesh."""
+
+
+class SolverError(ConformalUVError, RuntimeError):
+    """The numerical solution failed."""
+
+
+class ConvergenceError(SolverError):
+    """An iteration stopped before it reached its tolerance."""
+
+
+class MissingDependencyError(ConformalUVError, ImportError):
+    """An optional library that this function needs is not installed."""
+
+
+class Cancelled(ConformalUVError):
+    """The callback asked to stop; nothing was changed."""
+
+
+def listed(indices: Iterable[int], most: int = 8) -> str:
+    """The first few of many indices as text: ``3, 5, 8, ... (120 in all)``."""
+    values = [int(i) for i in indices]
+    text = ", ".join(str(i) for i in islice(values, most))
+    return text if len(values) <= most else f"{text}, ... ({len(values)} in all)"

@@ -1,0 +1,34 @@
+"""A mesh of polygons of any size, as files and modelling programs keep it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["PolygonMesh"]
+
+
+@dataclass(frozen=True, eq=False)
+class PolygonMesh:
+    """Vertices and polygons; face f has the corners ``starts[f] .. starts[f + 1] - 1``.
+
+    Attributes
+    ----------
+    V : (n, 3) float64
+        Vertex positions.
+    corners : (k,) int64
+        The vertex of every corner, face after face, in winding order.
+    starts : (p + 1,) int64
+        Where each face's corners begin; ``starts[-1] == k``.
+    """
+
+    V: NDArray[np.float64]
+    corners: NDArray[np.int64]
+    starts: NDArray[np.int64]
+
+    @property
+    def sizes(self) -> NDArray[np.int64]:
+        """Number of corners of each face, (p,)."""
+        return np.diff(self.starts)
