@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from itertools import islice
 
 __all__ = [
-    "Cancelled",
+    "CancelledError",
     "ConformalUVError",
     "ConvergenceError",
     "DegenerateFaceError",
@@ -96,7 +96,7 @@ class MissingDependencyError(ConformalUVError, ImportError):
     """An optional library that this function needs is not installed."""
 
 
-class Cancelled(ConformalUVError):
+class CancelledError(ConformalUVError):
     """The callback asked to stop; nothing was changed."""
 
 
