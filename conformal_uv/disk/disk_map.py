@@ -1,0 +1,90 @@
+"""The conformal map of a surface with disk topology onto the unit disk."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from numpy.typing import ArrayLike
+
+from ..progress import Callback
+from .mapper import DiskMapper
+from .result import DiskMap
+
+__all__ = ["disk_map"]
+
+
+def disk_map(
+    V: ArrayLike,
+    F: ArrayLike,
+    *,
+    method: str = "newton",
+    objective: str | None = None,
+    pins: Sequence[int] | None = None,
+    pin_mode: str | None = None,
+    center: int | None = None,
+    boundary_vertex: int | None = None,
+    tolerance: float = 1e-8,
+    max_iterations: int = 50,
+    backend: str = "auto",
+    callback: Callback | None = None,
+) -> DiskMap:
+    """Map a triangle mesh conformally onto the unit disk.
+
+    Parameters
+    ----------
+    V : (n, 3) floats
+        Vertex positions, any units.
+    F : (m, 3) integers
+        Triangles, 0-based, consistently wound: one connected surface with one boundary loop and no handles.
+    method : {"newton", "linear", "augmented-lagrangian"}
+        "linear": boundary angles from the harmonic measure, one factorization. "newton": from there, the boundary
+        angles that minimise the energy. "augmented-lagrangian": the algorithm of Choi's report.
+    objective : {"conformal", "dirichlet"}, optional
+        What is minimised: the Dirichlet energy less the area of the image, or the Dirichlet energy alone. By
+        default "conformal"; "dirichlet", the report's, for the augmented Lagrangian. "linear" minimises neither.
+    pins : three vertex indices, optional
+        Boundary vertices to be sent to 1, w, w^2, w = exp(2 pi i / 3), in the boundary's direction. The augmented
+        Lagrangian always has pins, by default a third of the boundary's vertices apart, from its first.
+    pin_mode : {"moebius", "constraint"}, optional
+        How pins are reached: by a Moebius map of the solution, or as constraints of the optimisation as in the
+        report (always so for the augmented Lagrangian), which can fold a map whose pins sit badly.
+    center : int, optional
+        Interior vertex to be sent to 0; by default the peak of the torsion function.
+    boundary_vertex : int, optional
+        Boundary vertex to be sent to 1; by default the first of the boundary loop.
+    tolerance : float
+        Newton's method ends at this norm of the projected gradient of the energy in the angles (radians).
+    max_iterations : int
+        Most iterations of "newton" and "augmented-lagrangian"; a result that stopped there has
+        ``converged == False`` and a warning is logged.
+    backend : {"auto", "cholmod", "superlu"}
+        Factorization; "auto" obeys the environment variable CONFORMAL_UV_BACKEND.
+    callback : callable, optional
+        Called as ``callback(stage, fraction)``; the work stops with CancelledError when it returns False.
+
+    Returns
+    -------
+    DiskMap
+
+    Raises
+    ------
+    MeshError
+        Or the subclass that says what is wrong with the mesh.
+    OptionError
+        An option that does not fit.
+    SolverError
+        The numerical solution failed.
+    CancelledError
+        The callback returned False.
+    """
+    return DiskMapper(V, F, backend=backend, callback=callback).map(
+        method=method,
+        objective=objective,
+        pins=pins,
+        pin_mode=pin_mode,
+        center=center,
+        boundary_vertex=boundary_vertex,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        callback=callback,
+    )

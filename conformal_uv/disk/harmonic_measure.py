@@ -1,0 +1,108 @@
+"""The boundary angles of the Riemann map, read off the Green's function.
+
+The Riemann map f with f(p) = 0 satisfies log |f| = G, the Green's function with its pole at p, so along the
+boundary its angle advances by the flux of G: 2 pi times the harmonic measure seen from p.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.geometry import triangle_geometry
+from ..mesh.halfedges import half_edges
+from ..mesh.subdivide import split_edges
+from ..mesh.surface import Surface
+from ..operators.areas import lumped_areas
+from ..operators.dirichlet import DirichletProblem
+from ..operators.laplacian import cotangent_weights
+
+__all__ = ["CentredMeasure", "angles_of_measure", "centred_measure"]
+
+
+@dataclass(frozen=True, eq=False)
+class CentredMeasure:
+    """Harmonic measure of the boundary seen from a central vertex.
+
+    Attributes
+    ----------
+    centre : int or None
+        The interior vertex; None where the mesh has none and a midpoint of an edge served.
+    vertex_measure : (nb,) float64
+        Of each boundary vertex of the mesh itself, or of its refinement where there is no centre; sums to 1.
+    theta : (nb,) float64
+        Boundary angles, increasing from 0.
+    """
+
+    centre: int | None
+    vertex_measure: NDArray[np.float64]
+    theta: NDArray[np.float64]
+
+
+def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasure:
+    """Harmonic measure seen from the peak of the torsion function, and the boundary angles it gives.
+
+    Chords (interior edges between two boundary vertices) stop the flux of piecewise linear functions: no
+    boundary edge of a corner cut off by several of them would get any. Such a mesh, and one without interior
+    vertices, is measured on a copy with its chords split.
+    """
+    loop = problem.boundary
+    lengths = np.linalg.norm(surface.V[np.roll(loop, -1)] - surface.V[loop], axis=1)
+    centre, measure = None, None
+    if len(problem.interior):
+        centre = torsion_centre(lumped_areas(surface.geometry, surface.corners, surface.n), problem)
+        measure = problem.harmonic_measure(centre)
+        theta = angles_of_measure(measure, lengths)
+        if not _stalls(theta):
+            return CentredMeasure(centre, measure, theta)
+    chords = chord_edges(surface, loop)
+    if not len(chords):
+        if measure is None:  # a single triangle
+            third = np.arange(3) / 3.0
+            return CentredMeasure(None, np.full(3, 1.0 / 3.0), 2.0 * np.pi * third)
+        return CentredMeasure(centre, measure, theta)
+    V, corners = split_edges(surface.V, surface.corners, surface.edges, chords)
+    edges, geometry = half_edges(corners, len(V)), triangle_geometry(V, corners)
+    refined = DirichletProblem(
+        edges, cotangent_weights(edges, geometry), loop, len(V), backend=problem.backend
+    )
+    pole = centre if centre is not None else torsion_centre(lumped_areas(geometry, corners, len(V)), refined)
+    fine = refined.harmonic_measure(pole)
+    return CentredMeasure(centre, fine if measure is None else measure, angles_of_measure(fine, lengths))
+
+
+def torsion_centre(areas: NDArray[np.float64], problem: DirichletProblem) -> int:
+    """The interior vertex where the torsion function (-laplacian t = 1, t = 0 on the boundary) is largest."""
+    return int(problem.interior[np.argmax(problem.solve(areas[problem.interior]))])
+
+
+def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Angles of the boundary vertices from their harmonic measure.
+
+    Each vertex shares its measure between its two boundary edges in proportion to their lengths; the running sum
+    over the edges, times 2 pi, is the angle.
+
+    Parameters
+    ----------
+    measure : (nb,)
+    lengths : (nb,)
+        Of the boundary edge from each vertex to the next.
+    """
+    density = measure / (lengths + np.roll(lengths, 1))
+    on_edge = lengths * (density + np.roll(density, -1))
+    total = np.cumsum(on_edge)
+    return 2.0 * np.pi * np.concatenate(([0.0], total[:-1] / total[-1]))
+
+
+def chord_edges(surface: Surface, loop: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Interior edges whose two vertices lie on the boundary."""
+    on_boundary = np.zeros(surface.n, dtype=bool)
+    on_boundary[loop] = True
+    edges = surface.edges
+    return np.flatnonzero((edges.count == 2) & on_boundary[edges.lo] & on_boundary[edges.hi])
+
+
+def _stalls(theta: NDArray[np.float64]) -> bool:
+    return not bool((np.diff(theta, append=2.0 * np.pi) > 0).all())

@@ -1,0 +1,185 @@
+"""Newton's method on the boundary angles: truncated conjugate gradients inside, a line search outside."""
+
+from __future__ import annotations
+
+import logging
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..operators.dirichlet import DirichletProblem
+from ..progress import Progress
+from .boundary_energy import BoundaryEnergy
+from .gauge import Gauge
+from .preconditioner import FourierPreconditioner
+
+__all__ = ["NewtonResult", "NewtonStep", "minimise_boundary_energy"]
+
+Real = NDArray[np.float64]
+log = logging.getLogger(__name__)
+
+GAP_KEPT = 0.1  # of the angle between two neighbours, what a step leaves at the least
+SHORTEST_STEP = 1e-6  # of a Newton direction, below which the order of the boundary blocks the way
+SUFFICIENT_DECREASE = 1e-4  # Armijo's constant
+MOST_CG_STEPS = 200  # for one Newton step
+
+
+class NewtonStep(NamedTuple):
+    """What the solver saw at one iterate.
+
+    Attributes
+    ----------
+    energy : float
+        Conformal or Dirichlet energy.
+    gradient_norm : float
+        Euclidean norm of the projected gradient in the boundary angles.
+    cg_steps : int
+        Conjugate gradient steps for the direction taken from here.
+    step_length : float
+        Part of the Newton direction taken, 0 at the last iterate.
+    """
+
+    energy: float
+    gradient_norm: float
+    cg_steps: int
+    step_length: float
+
+
+class NewtonResult(NamedTuple):
+    """The energy at the angles found, the steps, and whether the tolerance was reached."""
+
+    energy: BoundaryEnergy
+    history: tuple[NewtonStep, ...]
+    converged: bool
+
+
+def minimise_boundary_energy(
+    problem: DirichletProblem,
+    theta: Real,
+    gauge: Gauge,
+    *,
+    minus_area: bool,
+    tolerance: float,
+    max_iterations: int,
+    progress: Progress,
+) -> NewtonResult:
+    """Minimise the energy over the boundary angles under the gauge.
+
+    The energy never rises and the order of the boundary is never broken. The iteration ends when the norm of the
+    projected gradient is at most `tolerance`, when no step lowers the energy any more, or after `max_iterations`.
+
+    Parameters
+    ----------
+    theta : (nb,) float64
+        Start, strictly increasing within one turn.
+    """
+    history: list[NewtonStep] = []
+    energy = BoundaryEnergy(problem, gauge.restore(theta), minus_area=minus_area)
+    first = None
+    for iteration in range(max_iterations + 1):
+        tangent = _Tangent(gauge, energy.theta)
+        gradient = tangent.project(energy.gradient)
+        norm = float(np.linalg.norm(gradient))
+        first = first or norm
+        progress("newton", _fraction(norm, first, tolerance))
+        if norm <= tolerance or iteration == max_iterations:
+            break
+        direction, cg_steps = _newton_direction(energy, tangent, gradient, tolerance)
+        found = _line_search(energy, gauge, direction, float(gradient @ direction))
+        if found is None:
+            log.debug("no descent left at projected gradient %.3g", norm)
+            break
+        step_length, better = found
+        history.append(NewtonStep(energy.value, norm, cg_steps, step_length))
+        energy = better
+    history.append(NewtonStep(energy.value, norm, 0, 0.0))
+    return NewtonResult(energy, tuple(history), norm <= tolerance)
+
+
+class _Tangent:
+    """The directions that keep the gauge at one vector of angles."""
+
+    def __init__(self, gauge: Gauge, theta: Real) -> None:
+        self._basis, _ = np.linalg.qr(gauge.normals(theta))
+        self._inverse = FourierPreconditioner(len(theta))
+        self._image = np.column_stack([self._inverse(column) for column in self._basis.T])
+        self._gram = self._basis.T @ self._image
+
+    def project(self, direction: Real) -> Real:
+        """Orthogonal projection."""
+        return direction - self._basis @ (self._basis.T @ direction)
+
+    def precondition(self, residual: Real) -> Real:
+        """The tangent direction d that minimises 1/2 d' M d - residual' d, M the preconditioner."""
+        free = self._inverse(residual)
+        held = free - self._image @ np.linalg.solve(self._gram, self._basis.T @ free)
+        return self.project(held)  # once more, against rounding
+
+
+def _newton_direction(
+    energy: BoundaryEnergy, tangent: _Tangent, gradient: Real, tolerance: float
+) -> tuple[Real, int]:
+    """Solve ``P H P d = -g`` by preconditioned conjugate gradients, stopped early (Steihaug 1983)."""
+    norm = float(np.linalg.norm(gradient))
+    goal = max(min(0.1, np.sqrt(norm)) * norm, 0.3 * tolerance)
+    direction = np.zeros_like(gradient)
+    residual = -gradient
+    smooth = tangent.precondition(residual)
+    search, product = smooth, float(residual @ smooth)
+    for step in range(1, MOST_CG_STEPS + 1):
+        image = tangent.project(energy.hessian_product(search))
+        curvature = float(search @ image)
+        if curvature <= 1e-12 * product:  # the energy does not rise along the search direction
+            return (direction if step > 1 else smooth), step
+        length = product / curvature
+        direction = direction + length * search
+        residual = residual - length * image
+        if np.linalg.norm(residual) <= goal:
+            break
+        smooth = tangent.precondition(residual)
+        product, previous = float(residual @ smooth), product
+        search = smooth + (product / previous) * search
+    return direction, step
+
+
+def _line_search(
+    energy: BoundaryEnergy, gauge: Gauge, direction: Real, slope: float
+) -> tuple[float, BoundaryEnergy] | None:
+    """Halve the step from the longest that keeps the order until the energy falls enough.
+
+    Below the resolution of the energy in doubles, a step counts when it lowers the projected gradient.
+    """
+    length = min(1.0, _longest_step(energy.theta, direction))
+    if length < SHORTEST_STEP:  # two neighbours on the boundary want to change places
+        return None
+    noise = 64.0 * np.finfo(np.float64).eps * (abs(energy.value) + np.pi)
+    norm = np.linalg.norm(_Tangent(gauge, energy.theta).project(energy.gradient))
+    for _ in range(30):
+        theta = gauge.restore(energy.theta + length * direction)
+        trial = BoundaryEnergy(energy.problem, theta, minus_area=energy.minus_area)
+        change = trial.value - energy.value
+        if change <= SUFFICIENT_DECREASE * length * slope and change < -noise:
+            return length, trial
+        if abs(change) <= noise and np.linalg.norm(_Tangent(gauge, theta).project(trial.gradient)) < norm:
+            return length, trial
+        length *= 0.5
+    return None
+
+
+def _longest_step(theta: Real, direction: Real) -> float:
+    """The step along which every gap between neighbours keeps GAP_KEPT of its angle."""
+    gap = np.roll(theta, -1) - theta
+    gap[-1] += 2.0 * np.pi
+    closing = direction - np.roll(direction, -1)
+    shrinking = closing > 0
+    if not shrinking.any():
+        return np.inf
+    return float(((1.0 - GAP_KEPT) * gap[shrinking] / closing[shrinking]).min())
+
+
+def _fraction(norm: float, first: float, tolerance: float) -> float:
+    """How far the logarithm of the gradient has come to its goal."""
+    if norm <= tolerance or first <= tolerance:
+        return 1.0
+    return float(np.clip(np.log(first / norm) / np.log(first / tolerance), 0.0, 1.0))

@@ -1,0 +1,144 @@
+"""Options of a map to the disk, checked against the mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from operator import index
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import OptionError
+from ..mesh.surface import Surface
+
+__all__ = ["DiskOptions", "Method", "Objective", "PinMode"]
+
+Method = Literal["linear", "newton", "augmented-lagrangian"]
+Objective = Literal["conformal", "dirichlet"]
+PinMode = Literal["moebius", "constraint"]
+
+CHOICES = {
+    "method": ("linear", "newton", "augmented-lagrangian"),
+    "objective": ("conformal", "dirichlet"),
+    "pin_mode": ("moebius", "constraint"),
+}
+
+
+@dataclass(frozen=True)
+class DiskOptions:
+    """What to solve and how to place it; see `disk_map`."""
+
+    method: Method
+    objective: Objective
+    pins: tuple[int, int, int] | None
+    pin_mode: PinMode
+    center: int | None
+    boundary_vertex: int | None
+    tolerance: float
+    max_iterations: int
+
+    @property
+    def constrained_pins(self) -> tuple[int, int, int] | None:
+        """Pins that are constraints of the optimisation."""
+        return self.pins if self.pin_mode == "constraint" else None
+
+    @property
+    def solution_key(self) -> tuple[object, ...]:
+        """What the solution depends on before it is placed."""
+        return self.method, self.objective, self.tolerance, self.max_iterations, self.constrained_pins
+
+    @classmethod
+    def checked(
+        cls,
+        surface: Surface,
+        loop: NDArray[np.int64],
+        *,
+        method: str,
+        objective: str | None,
+        pins: Sequence[int] | None,
+        pin_mode: str | None,
+        center: int | None,
+        boundary_vertex: int | None,
+        tolerance: float,
+        max_iterations: int,
+    ) -> DiskOptions:
+        """Fill in what was left out.
+
+        Raises
+        ------
+        OptionError
+            A value that is not taken, vertices that are not where they must be, or options that exclude each
+            other.
+        """
+        report = method == "augmented-lagrangian"
+        objective = objective or ("dirichlet" if report else "conformal")
+        pin_mode = pin_mode or ("constraint" if report else "moebius")
+        for name, value in (("method", method), ("objective", objective), ("pin_mode", pin_mode)):
+            if value not in CHOICES[name]:
+                raise OptionError(f"{name} is {value!r}; choose {' or '.join(CHOICES[name])}.")
+        if report and pin_mode != "constraint":
+            raise OptionError('The augmented Lagrangian takes its pins as constraints; leave pin_mode out.')
+        if method == "linear" and pin_mode == "constraint":
+            raise OptionError('The linear method does not optimise; it takes pins only with pin_mode="moebius".')
+        if not tolerance > 0 or max_iterations < 0:
+            raise OptionError("tolerance must be positive and max_iterations not negative.")
+        pinned = _pins(pins, loop, default=report or pin_mode == "constraint")
+        if pinned is not None and (center is not None or boundary_vertex is not None):
+            raise OptionError("Three pins already fix the map; leave out center and boundary_vertex.")
+        if center is not None:
+            center = _vertex("center", center, surface.n)
+            if center in loop:
+                raise OptionError(f"center {center} lies on the boundary; choose an interior vertex.")
+        if boundary_vertex is not None:
+            boundary_vertex = _vertex("boundary_vertex", boundary_vertex, surface.n)
+            if boundary_vertex not in loop:
+                raise OptionError(f"boundary_vertex {boundary_vertex} is not on the boundary.")
+        return cls(
+            method,  # type: ignore[arg-type]
+            objective,  # type: ignore[arg-type]
+            pinned,
+            pin_mode,  # type: ignore[arg-type]
+            center,
+            boundary_vertex,
+            float(tolerance),
+            int(max_iterations),
+        )
+
+
+def _vertex(name: str, value: int, n: int) -> int:
+    try:
+        vertex = index(value)
+    except TypeError as error:
+        raise OptionError(f"{name} is {value!r}; pass a vertex index.") from error
+    if not 0 <= vertex < n:
+        raise OptionError(f"{name} is vertex {vertex}; the mesh has vertices 0 .. {n - 1}.")
+    return vertex
+
+
+def _pins(pins: Sequence[int] | None, loop: NDArray[np.int64], *, default: bool) -> tuple[int, int, int] | None:
+    """Three boundary vertices in the order of the loop; by default those a third of its vertices apart."""
+    nb = len(loop)
+    if pins is None:
+        if not default:
+            return None
+        first, second, third = (int(loop[k]) for k in (0, nb // 3, 2 * (nb // 3)))
+        return first, second, third
+    values = list(pins)
+    if len(values) != 3:
+        raise OptionError(f"{len(values)} pins; pass three boundary vertices.")
+    a, b, c = (_vertex("pins", v, int(loop.max()) + 1) for v in values)
+    place = [np.flatnonzero(loop == v) for v in (a, b, c)]
+    outside = [v for v, found in zip((a, b, c), place, strict=True) if not len(found)]
+    if outside:
+        raise OptionError(f"Pins {outside} are not on the boundary; pass three boundary vertices.")
+    i, j, k = (int(found[0]) for found in place)
+    if len({i, j, k}) < 3:
+        raise OptionError(f"Pins {a}, {b}, {c} are not three different vertices.")
+    if (j - i) % nb > (k - i) % nb:
+        raise OptionError(
+            f"Pins {a}, {b}, {c} follow each other against the boundary's direction, which would mirror the "
+            f"surface; pass {a}, {c}, {b}."
+        )
+    return a, b, c

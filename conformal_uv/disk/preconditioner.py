@@ -1,0 +1,28 @@
+"""A mesh-independent preconditioner for the Hessian in the boundary angles.
+
+In the angle the Hessian of the continuous problem is the Fourier multiplier |k| - 1, the norm of H^1/2 less its
+Moebius part. That norm keeps its size under changes of coordinate, so the number of a vertex along the boundary
+serves as the coordinate: no interpolation, and no two vertices fall into one cell of a grid.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft, rfft
+
+__all__ = ["FourierPreconditioner"]
+
+Real = NDArray[np.float64]
+
+
+class FourierPreconditioner:
+    """``irfft(rfft(r) / max(|k| - 1, 1))`` over nb boundary vertices."""
+
+    def __init__(self, nb: int) -> None:
+        self._size = nb
+        self._multiplier = np.maximum(np.arange(nb // 2 + 1) - 1.0, 1.0)
+
+    def __call__(self, residual: Real) -> Real:
+        """Apply to a residual (nb,)."""
+        return irfft(rfft(residual) / self._multiplier, self._size)

@@ -1,0 +1,98 @@
+"""The three methods, each from a factorized surface to the positions of all vertices in the disk."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface
+from ..operators.dirichlet import DirichletProblem
+from ..operators.laplacian import cotangent_weights, laplacian_matrix, uniform_weights
+from ..progress import Progress
+from .augmented_lagrangian import AugmentedLagrangianStep, area_hessian, augmented_lagrangian
+from .gauge import CentreGauge, PinGauge
+from .harmonic_measure import CentredMeasure
+from .newton import NewtonResult, NewtonStep, minimise_boundary_energy
+from .options import DiskOptions
+from .placement import CUBE_ROOTS, place_pins
+
+__all__ = ["Solution", "solve_augmented_lagrangian", "solve_linear", "solve_newton"]
+
+Complex = NDArray[np.complex128]
+
+
+class Solution(NamedTuple):
+    """Positions z (n,) in the unit disk, before they are placed.
+
+    `center` is the vertex that lies at 0, None where none was put there; `fixed` says that pins were constraints,
+    so that the map stays where it is.
+    """
+
+    z: Complex
+    center: int | None
+    history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
+    converged: bool
+    fixed: bool = False
+
+
+def solve_linear(problem: DirichletProblem, measure: CentredMeasure) -> Solution:
+    """Angles from the harmonic measure, then the harmonic extension."""
+    theta = CentreGauge(measure.vertex_measure, measure.theta).restore(measure.theta)
+    return Solution(problem.extend(np.exp(1j * theta)), measure.centre, (), True)
+
+
+def solve_newton(
+    surface: Surface, problem: DirichletProblem, measure: CentredMeasure, options: DiskOptions, progress: Progress
+) -> Solution:
+    """From the linear solution, the boundary angles that minimise the energy."""
+    loop = problem.boundary
+    gauge: CentreGauge | PinGauge = CentreGauge(measure.vertex_measure, measure.theta)
+    theta, pins = measure.theta, options.constrained_pins
+    if pins is not None:
+        start = solve_linear(problem, measure).z
+        theta = _angles(place_pins(problem, surface.corners, start, pins)[loop])
+        gauge = PinGauge(np.array([np.flatnonzero(loop == pin)[0] for pin in pins]))
+    found: NewtonResult = minimise_boundary_energy(
+        problem,
+        theta,
+        gauge,
+        minus_area=options.objective == "conformal",
+        tolerance=options.tolerance,
+        max_iterations=options.max_iterations,
+        progress=progress,
+    )
+    z = np.empty(problem.n, dtype=np.complex128)
+    z[loop], z[problem.interior] = found.energy.z, found.energy.interior
+    if pins is not None:
+        z[list(pins)] = CUBE_ROOTS
+        return Solution(z, None, found.history, found.converged, fixed=True)
+    return Solution(z, measure.centre, found.history, found.converged)
+
+
+def solve_augmented_lagrangian(
+    surface: Surface, loop: NDArray[np.int64], options: DiskOptions, backend: str, progress: Progress
+) -> Solution:
+    """The report's algorithm from Tutte's embedding with uniform weights and an equally spaced boundary."""
+    edges, n = surface.edges, surface.n
+    tutte = DirichletProblem(edges, uniform_weights(edges), loop, n, backend=backend)
+    start = tutte.extend(np.exp(2j * np.pi / len(loop) * np.arange(len(loop))))
+    found = augmented_lagrangian(
+        laplacian_matrix(edges, 2.0 * cotangent_weights(edges, surface.geometry), n),
+        np.column_stack((start.real, start.imag)),
+        loop,
+        np.array(options.pins),
+        area=area_hessian(loop, n) if options.objective == "conformal" else None,
+        max_iterations=options.max_iterations,
+        progress=progress,
+    )
+    z = found.uv[:, 0] + 1j * found.uv[:, 1]
+    z[loop] /= np.abs(z[loop])  # the constraints hold to 1e-8, the circle is to be met
+    return Solution(z, None, found.history, found.converged, fixed=True)
+
+
+def _angles(zb: Complex) -> NDArray[np.float64]:
+    """Increasing angles of points that go once around the circle."""
+    turn = np.angle(np.roll(zb, -1) / zb) % (2.0 * np.pi)
+    return np.angle(zb[0]) + np.concatenate(([0.0], np.cumsum(turn)[:-1]))

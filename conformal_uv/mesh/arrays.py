@@ -1,0 +1,111 @@
+"""Vertices and faces as a user brings them, made into arrays of one kind."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import DegenerateFaceError, MeshError, NonFiniteError, UnreferencedVertexError, listed
+
+__all__ = ["check_referenced", "face_array", "vertex_array"]
+
+MOST_VERTICES = 2**31 - 1
+
+
+def vertex_array(V: ArrayLike) -> NDArray[np.float64]:
+    """Vertices as a (n, 3) float64 array in C order; two columns are taken to lie in the plane z = 0.
+
+    Raises
+    ------
+    MeshError
+        Not an array of numbers with three (or two) columns.
+    NonFiniteError
+        A coordinate is NaN or infinite.
+    """
+    try:
+        raw = np.asarray(V)
+        if raw.dtype.kind == "c":
+            raise TypeError("complex numbers")
+        array = np.ascontiguousarray(raw, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise MeshError(f"V is not an array of numbers ({error}); pass vertices as (n, 3) floats.") from error
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise MeshError(f"V has shape {array.shape}; pass vertices as (n, 3) floats.")
+    if array.shape[1] == 2:
+        array = np.column_stack((array, np.zeros(len(array))))
+    if not np.isfinite(array.sum()):  # one pass; the indices are looked for only when there are some
+        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
+        if len(bad):
+            raise NonFiniteError(
+                f"{len(bad)} of {len(array)} vertices have a NaN or infinite coordinate: "
+                f"{listed(bad)}. Remove them with their faces, or give them positions.",
+                bad,
+            )
+    return array
+
+
+def face_array(F: ArrayLike, n: int) -> NDArray[np.int32]:
+    """Triangles as a (3, m) int32 array, a row for each corner.
+
+    Parameters
+    ----------
+    F : (m, 3) integers
+        Vertex indices, 0-based. Floats are taken where they are whole numbers.
+    n : int
+        Number of vertices.
+
+    Raises
+    ------
+    MeshError
+        Not integers with three columns, no faces, or an index outside 0 .. n - 1.
+    DegenerateFaceError
+        A face repeats a vertex.
+    """
+    faces = _integers(F)
+    if faces.ndim != 2 or faces.shape[1] != 3:
+        hint = " Polygons go through unwrap()." if faces.ndim == 2 and faces.shape[1] > 3 else ""
+        raise MeshError(f"F has shape {faces.shape}; pass triangles as (m, 3) vertex indices.{hint}")
+    if not len(faces) or not n:
+        raise MeshError(f"The mesh is empty ({n} vertices, {len(faces)} faces); there is nothing to map.")
+    if n > MOST_VERTICES or len(faces) > MOST_VERTICES // 3:
+        raise MeshError(f"{n} vertices and {len(faces)} faces are more than 32-bit indices can number.")
+    if faces.min() < 0 or faces.max() >= n:
+        bad = np.flatnonzero(((faces < 0) | (faces >= n)).any(axis=1))
+        hint = " Indices start at 0." if faces.min() >= 1 and faces.max() == n else ""
+        raise MeshError(
+            f"{len(bad)} faces name vertices outside 0 .. {n - 1}: faces {listed(bad)}.{hint}", bad
+        )
+    corners = np.empty((3, len(faces)), dtype=np.int32)
+    corners[...] = faces.T
+    a, b, c = corners
+    repeated = (a == b) | (b == c) | (c == a)
+    if repeated.any():
+        bad = np.flatnonzero(repeated)
+        raise DegenerateFaceError(
+            f"{len(bad)} faces repeat a vertex: faces {listed(bad)}. Remove them.", bad
+        )
+    return corners
+
+
+def _integers(F: ArrayLike) -> NDArray[np.integer]:
+    try:
+        raw = np.asarray(F)
+    except ValueError as error:
+        raise MeshError(f"F is not an array ({error}); pass triangles as (m, 3) vertex indices.") from error
+    if raw.dtype.kind in "iu":
+        return raw
+    if raw.dtype.kind == "f" and np.isfinite(raw).all() and np.all(raw == np.rint(raw)):
+        if raw.size == 0 or np.abs(raw).max() < 2.0**62:
+            return raw.astype(np.int64)
+    raise MeshError(f"F holds {raw.dtype}, not integers; pass triangles as (m, 3) vertex indices.")
+
+
+def check_referenced(corners: NDArray[np.int32], n: int) -> None:
+    """Raise UnreferencedVertexError when a vertex belongs to no face."""
+    used = np.zeros(n, dtype=bool)
+    used[corners] = True
+    if not used.all():
+        bad = np.flatnonzero(~used)
+        raise UnreferencedVertexError(
+            f"{len(bad)} of {n} vertices belong to no face: vertices {listed(bad)}. Remove them.", bad
+        )

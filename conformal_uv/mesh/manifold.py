@@ -1,0 +1,155 @@
+"""Checks that a triangle mesh is an oriented 2-manifold, cheap where it is and specific where it is not."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+from ..errors import DegenerateFaceError, DuplicateFaceError, NonManifoldError, OrientationError, listed
+from .geometry import TriangleGeometry
+from .halfedges import HalfEdges
+from .orientation import disagreeing_pairs, face_signs
+
+__all__ = [
+    "check_areas",
+    "check_edges",
+    "check_fans",
+    "check_orientation",
+    "degenerate_faces",
+    "face_components",
+    "is_face_connected",
+    "split_vertices",
+]
+
+
+def check_edges(corners: NDArray[np.int32], edges: HalfEdges) -> None:
+    """Raise DuplicateFaceError or NonManifoldError where an edge has three faces or a face stands twice."""
+    m = corners.shape[1]
+    crowded = np.flatnonzero(edges.count > 2)
+    across = np.where(edges.twin >= 0, edges.twin % m, -1 - np.arange(3 * m, dtype=np.int32)).reshape(3, m)
+    folded = (across[0] == across[1]) | (across[1] == across[2]) | (across[2] == across[0])
+    if len(crowded) or folded.any():
+        _, index, count = np.unique(np.sort(corners, axis=0), axis=1, return_inverse=True, return_counts=True)
+        twice = np.flatnonzero(count[index.reshape(-1)] > 1)
+        if len(twice):
+            raise DuplicateFaceError(
+                f"{len(twice)} faces have the same three vertices as another: faces {listed(twice)}. "
+                "Keep one of each.",
+                twice,
+            )
+    if len(crowded):
+        places = ", ".join(f"({edges.lo[e]}, {edges.hi[e]})" for e in crowded[:8])
+        faces = np.flatnonzero((edges.twin == -2).reshape(3, m).any(axis=0))
+        raise NonManifoldError(
+            f"{len(crowded)} edges have three or more faces: edges {places}{' ...' if len(crowded) > 8 else ''} "
+            f"of faces {listed(faces)}. Remove the extra faces, or cut the surface there.",
+            faces,
+        )
+
+
+def check_orientation(corners: NDArray[np.int32], edges: HalfEdges) -> None:
+    """Raise OrientationError naming the faces wound against the rest, or saying that there is one side only."""
+    if not len(disagreeing_pairs(corners, edges.twin)):
+        return
+    sign = face_signs(corners, edges.twin)
+    if (sign == 0).any():
+        one_sided = np.flatnonzero(sign == 0)
+        raise OrientationError(
+            f"The surface has only one side, like a Moebius band ({len(one_sided)} faces: "
+            f"{listed(one_sided)}); it has no conformal map to the disk. Cut it across the band.",
+            one_sided,
+        )
+    against = np.flatnonzero(sign < 0)
+    raise OrientationError(
+        f"{len(against)} faces are wound against their neighbours: faces {listed(against)}. "
+        "Reverse their vertex order.",
+        against,
+    )
+
+
+def check_fans(corners: NDArray[np.int32], edges: HalfEdges, n: int) -> None:
+    """Raise NonManifoldError where the faces around a vertex form more than one fan."""
+    bad = np.unique(corners.reshape(-1)[split_vertices(corners, edges, n)[1]])
+    if len(bad):
+        raise NonManifoldError(
+            f"{len(bad)} vertices join pieces that touch only there: vertices {listed(bad)}. "
+            "Split each into one vertex for every fan of faces.",
+            bad,
+        )
+
+
+def split_vertices(
+    corners: NDArray[np.int32], edges: HalfEdges, n: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """A number for every fan of faces at every vertex.
+
+    Returns
+    -------
+    fan : (3 m,) int64
+        The fan of each corner: the vertex itself for its first fan, n, n + 1, ... for the others.
+    extra : (k,) int64
+        One corner of each of the other fans; empty on a manifold.
+    """
+    tail = corners.reshape(-1)
+    m = corners.shape[1]
+    h = np.flatnonzero(edges.twin >= 0)
+    h = h[h < edges.twin[h]]
+    g = edges.twin[h].astype(np.int64)
+    h_next, g_next = (h + m) % (3 * m), (g + m) % (3 * m)
+    same = tail[h] == tail[g]  # the neighbour is wound the other way
+    rows = np.concatenate((h, h_next))
+    columns = np.concatenate((np.where(same, g, g_next), np.where(same, g_next, g)))
+    graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(3 * m, 3 * m))
+    count, label = connected_components(graph, directed=False)
+    first = np.full(count, 3 * m, dtype=np.int64)  # the first corner of each fan
+    np.minimum.at(first, label, np.arange(3 * m))
+    vertex = tail[first].astype(np.int64)
+    order = np.lexsort((first, vertex))
+    later = order[1:][vertex[order[1:]] == vertex[order[:-1]]]
+    name = vertex.copy()
+    later = later[np.argsort(first[later])]
+    name[later] = n + np.arange(len(later))
+    return name[label], first[later]
+
+
+def is_face_connected(corners: NDArray[np.int32], edges: HalfEdges) -> bool:
+    """Whether every face can be reached from face 0 across edges."""
+    m = corners.shape[1]
+    across = np.where(edges.twin >= 0, edges.twin % m, np.tile(np.arange(m, dtype=np.int32), 3))
+    neighbour = np.ascontiguousarray(across.reshape(3, m).T).reshape(-1)
+    graph = csr_array(
+        (np.ones(3 * m), neighbour, np.arange(0, 3 * m + 1, 3, dtype=np.int32)), shape=(m, m)
+    )
+    return len(breadth_first_order(graph, 0, directed=True, return_predecessors=False)) == m
+
+
+def face_components(corners: NDArray[np.int32], n: int) -> tuple[int, NDArray[np.int32]]:
+    """Number of connected pieces, and the piece of each face, (m,); faces sharing a vertex are connected."""
+    rows, columns = corners[:2].reshape(-1), corners[1:].reshape(-1)
+    graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(n, n))
+    label = connected_components(graph, directed=False)[1][corners[0]]
+    _, piece = np.unique(label, return_inverse=True)
+    return int(piece.max()) + 1, piece.astype(np.int32)
+
+
+def degenerate_faces(geometry: TriangleGeometry) -> NDArray[np.int64]:
+    """Faces whose area is lost to rounding: twice the area at most 8 eps times the longest edge squared.
+
+    The cross product of two edges is wrong by a few eps times the product of their lengths, so below that the
+    sign and size of the cotangents carry no information.
+    """
+    longest = geometry.squared_lengths.max(axis=0)
+    return np.flatnonzero(geometry.double_area <= 8 * np.finfo(np.float64).eps * longest)
+
+
+def check_areas(geometry: TriangleGeometry) -> None:
+    """Raise DegenerateFaceError where a face has no area."""
+    bad = degenerate_faces(geometry)
+    if len(bad):
+        raise DegenerateFaceError(
+            f"{len(bad)} faces have no area: faces {listed(bad)}. "
+            "Merge their coincident vertices or collapse their shortest edges.",
+            bad,
+        )

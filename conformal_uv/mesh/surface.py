@@ -1,0 +1,170 @@
+"""A surface: the checked, immutable form in which a triangle mesh goes through the whole package."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import DisconnectedError, NonManifoldError, TopologyError, listed
+from .arrays import check_referenced, face_array, vertex_array
+from .geometry import TriangleGeometry, triangle_geometry
+from .halfedges import HalfEdges, half_edges
+from .loops import boundary_loops
+from .manifold import (
+    check_areas,
+    check_edges,
+    check_fans,
+    check_orientation,
+    face_components,
+    is_face_connected,
+)
+
+__all__ = ["Surface"]
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """An oriented 2-manifold triangle mesh without degenerate faces, every vertex used.
+
+    Attributes
+    ----------
+    V : (n, 3) float64
+        Vertex positions, scaled by a power of two so that the largest coordinate lies in [1/2, 1).
+    corners : (3, m) int32
+        Vertex of each face's corners.
+    edges : HalfEdges
+    geometry : TriangleGeometry
+        Of the scaled positions.
+    loops : list of (k,) int64
+        Boundary loops in the direction of the faces; the first starts at the first boundary half-edge met when
+        faces are read in order.
+    pieces : int
+        Number of connected components.
+    unit : float
+        Length of one unit of V in the units of the positions as given.
+    """
+
+    V: NDArray[np.float64]
+    corners: NDArray[np.int32]
+    edges: HalfEdges
+    geometry: TriangleGeometry
+    loops: list[NDArray[np.int64]]
+    pieces: int
+    unit: float
+
+    @classmethod
+    def from_arrays(cls, V: ArrayLike, F: ArrayLike) -> Surface:
+        """Check a mesh and take it in.
+
+        Parameters
+        ----------
+        V : (n, 3) floats, any units
+        F : (m, 3) integers, 0-based
+
+        Raises
+        ------
+        MeshError
+            Or the subclass that names what is wrong, with the indices.
+        """
+        vertices = vertex_array(V)
+        n = len(vertices)
+        corners = face_array(F, n)
+        check_referenced(corners, n)
+        edges = half_edges(corners, n)
+        check_edges(corners, edges)
+        check_orientation(corners, edges)
+        _check_boundary(corners, edges, n)
+        loops = boundary_loops(corners, edges.twin)
+        pieces = 1
+        euler = n - len(edges.lo) + corners.shape[1]
+        # A piece connected through its faces whose Euler number is the largest its loops allow (1 for one loop,
+        # 2 for none) has no handle and no two fans at a vertex: each would lower the number. Only other meshes
+        # need the search for fans.
+        if len(loops) + euler != 2 or len(loops) > 1 or not is_face_connected(corners, edges):
+            check_fans(corners, edges, n)
+            pieces, _ = face_components(corners, n)
+        vertices, unit = _scaled(vertices)
+        geometry = triangle_geometry(vertices, corners)
+        check_areas(geometry)
+        return cls(vertices, corners, edges, geometry, loops, pieces, unit)
+
+    @property
+    def n(self) -> int:
+        """Number of vertices."""
+        return len(self.V)
+
+    @property
+    def m(self) -> int:
+        """Number of faces."""
+        return self.corners.shape[1]
+
+    @property
+    def F(self) -> NDArray[np.int32]:
+        """Faces, (m, 3)."""
+        return self.corners.T
+
+    @property
+    def euler_characteristic(self) -> int:
+        """Vertices minus edges plus faces."""
+        return self.n - len(self.edges.lo) + self.m
+
+    @property
+    def genus(self) -> int:
+        """Number of handles, summed over the pieces: chi = 2 pieces - 2 genus - loops."""
+        return (2 * self.pieces - len(self.loops) - self.euler_characteristic) // 2
+
+    def require_disk(self) -> NDArray[np.int64]:
+        """The boundary loop of a topological disk.
+
+        Raises
+        ------
+        DisconnectedError, TopologyError
+            Saying what the surface is instead.
+        """
+        if self.pieces > 1:
+            raise DisconnectedError(
+                f"The mesh has {self.pieces} pieces that do not touch; a disk is one. "
+                "Map each piece by itself, or use unwrap().",
+            )
+        if not self.loops:
+            advice = "Use sphere_map()." if self.genus == 0 else "Cut it open along its handles first."
+            raise TopologyError(f"The surface is closed, of genus {self.genus}: it has no boundary. {advice}")
+        if len(self.loops) > 1:
+            told = sorted(((len(loop), self.loop_length(loop)) for loop in self.loops), reverse=True)
+            lengths = ", ".join(f"{count} edges" for count, _ in told[:8])
+            raise TopologyError(
+                f"The surface has {len(self.loops)} boundary loops ({lengths}"
+                f"{', ...' if len(told) > 8 else ''}) and genus {self.genus}; a disk has one loop. "
+                "Fill the holes, or use unwrap(), which can fill them for the solution.",
+                [loop[0] for loop in self.loops],
+            )
+        if self.genus:
+            raise TopologyError(
+                f"The surface has one boundary loop but genus {self.genus}; a disk has no handles. "
+                "Cut it open along its handles first.",
+            )
+        return self.loops[0]
+
+    def loop_length(self, loop: NDArray[np.int64]) -> float:
+        """Length of a closed polygon of vertices, in the scaled units."""
+        return float(np.linalg.norm(self.V[loop] - self.V[np.roll(loop, -1)], axis=1).sum())
+
+
+def _scaled(V: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+    """V over a power of two, and that power: an exact operation that keeps squares from overflowing."""
+    _, exponent = np.frexp(max(V.max(), -V.min()))
+    return np.ldexp(V, -exponent), float(np.ldexp(1.0, min(exponent, 1023)))
+
+
+def _check_boundary(corners: NDArray[np.int32], edges: HalfEdges, n: int) -> None:
+    """Raise NonManifoldError where two stretches of boundary meet in a vertex."""
+    leaving = np.bincount(corners.reshape(-1)[edges.twin == -1], minlength=n)
+    bad = np.flatnonzero(leaving > 1)
+    if len(bad):
+        raise NonManifoldError(
+            f"{len(bad)} boundary vertices join fans of faces that touch only there: vertices {listed(bad)}. "
+            "Split each into one vertex for every fan.",
+            bad,
+        )

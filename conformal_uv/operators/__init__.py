@@ -1,0 +1,21 @@
+"""Discrete operators on triangle meshes: Laplacians, areas, gradient, Dirichlet problems, distortion."""
+
+from .areas import face_areas, mixed_voronoi_areas
+from .dirichlet import DirichletProblem
+from .distortion import Distortion, distortion
+from .gradient import gradient
+from .laplacian import cotangent_laplacian, cotangent_laplacian_intrinsic, uniform_laplacian
+from .moebius import Moebius
+
+__all__ = [
+    "DirichletProblem",
+    "Distortion",
+    "Moebius",
+    "cotangent_laplacian",
+    "cotangent_laplacian_intrinsic",
+    "distortion",
+    "face_areas",
+    "gradient",
+    "mixed_voronoi_areas",
+    "uniform_laplacian",
+]

@@ -1,0 +1,139 @@
+"""The Dirichlet problem of a Laplacian, factorized once: harmonic extensions and boundary fluxes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from ..mesh.halfedges import HalfEdges
+from ..progress import Progress
+from .cholesky import Factorization, LowerTriangle, choose_backend, factorize
+
+__all__ = ["DirichletProblem"]
+
+
+class DirichletProblem:
+    """``Lii u_i = -Lib u_b`` for the Laplacian with given edge weights; i interior, b boundary in its order.
+
+    Parameters
+    ----------
+    edges : HalfEdges
+        Its edge list; the order of the edges makes the interior block without another sort.
+    weights : (e,) float64
+        Edge weights; Lii must come out positive definite.
+    boundary : (nb,) integers
+        Vertices with given values.
+    n : int
+        Number of vertices.
+    backend : {"auto", "cholmod", "superlu"}
+    progress : Progress, optional
+
+    Raises
+    ------
+    SolverError
+        Lii is singular to working precision.
+    """
+
+    def __init__(
+        self,
+        edges: HalfEdges,
+        weights: NDArray[np.float64],
+        boundary: NDArray[np.int64],
+        n: int,
+        *,
+        backend: str = "auto",
+        progress: Progress | None = None,
+    ) -> None:
+        progress = progress or Progress()
+        progress("assembly", 0.0)
+        self.n = n
+        self.boundary = boundary
+        inside = np.ones(n, dtype=bool)
+        inside[boundary] = False
+        self.interior: NDArray[np.int64] = np.flatnonzero(inside)
+        number = np.empty(n, dtype=np.int32)  # place within the interior or within the boundary
+        number[self.interior] = np.arange(len(self.interior), dtype=np.int32)
+        number[boundary] = np.arange(len(boundary), dtype=np.int32)
+        self._blocks(edges, weights, inside, number)
+        self.backend = choose_backend(backend)
+        self._factor: Factorization | None = None
+        if len(self.interior):
+            self._factor = factorize(self._interior_block(edges, weights, inside, number), backend, progress)
+
+    def _blocks(
+        self,
+        edges: HalfEdges,
+        weights: NDArray[np.float64],
+        inside: NDArray[np.bool_],
+        number: NDArray[np.int32],
+    ) -> None:
+        """Lib and Lbb, a few entries for each boundary vertex."""
+        lo, hi = edges.lo, edges.hi
+        self._degree = np.bincount(lo, weights, self.n) + np.bincount(hi, weights, self.n)
+        touching = np.flatnonzero(~(inside[lo] & inside[hi]))
+        i, j, w = lo[touching], hi[touching], weights[touching]
+        mixed = inside[i] | inside[j]
+        swap = inside[j]
+        a, b = np.where(swap, j, i)[mixed], np.where(swap, i, j)[mixed]
+        ni, nb = len(self.interior), len(self.boundary)
+        self.Lib = csr_array((-w[mixed], (number[a], number[b])), shape=(ni, nb))
+        self.Lbi = self.Lib.T.tocsr()
+        i, j, w = number[i[~mixed]], number[j[~mixed]], -w[~mixed]
+        d = np.arange(nb)
+        values = np.concatenate((w, w, self._degree[self.boundary]))
+        self.Lbb = csr_array(
+            (values, (np.concatenate((i, j, d)), np.concatenate((j, i, d)))), shape=(nb, nb)
+        )
+
+    def _interior_block(
+        self,
+        edges: HalfEdges,
+        weights: NDArray[np.float64],
+        inside: NDArray[np.bool_],
+        number: NDArray[np.int32],
+    ) -> LowerTriangle:
+        """Lower triangle of Lii; edges sorted by (lo, hi) already stand in its column order."""
+        both = np.flatnonzero(inside[edges.lo] & inside[edges.hi])
+        column, row = number[edges.lo[both]], number[edges.hi[both]]
+        ni = len(self.interior)
+        indptr = np.zeros(ni + 1, dtype=np.int64)
+        np.cumsum(np.bincount(column, minlength=ni) + 1, out=indptr[1:])
+        data = np.empty(indptr[-1])
+        indices = np.empty(indptr[-1], dtype=np.int32)
+        place = np.arange(1, len(both) + 1) + column
+        data[place], indices[place] = -weights[both], row
+        data[indptr[:-1]] = self._degree[self.interior]
+        indices[indptr[:-1]] = np.arange(ni, dtype=np.int32)
+        return LowerTriangle(data, indices, indptr)
+
+    def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
+        """``Lii^-1 rhs`` for rhs (ni,) or (ni, k)."""
+        if self._factor is None:
+            return rhs.copy()
+        return self._factor.solve(rhs)
+
+    def interior_values(self, zb: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """Harmonic extension of complex boundary values zb (nb,), at the interior vertices (ni,)."""
+        rhs = -(self.Lib @ zb.view(np.float64).reshape(-1, 2))
+        return np.ascontiguousarray(self.solve(rhs)).view(np.complex128).reshape(-1)
+
+    def extend(self, zb: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """Harmonic extension of complex boundary values zb (nb,) to all vertices (n,)."""
+        z = np.empty(self.n, dtype=np.complex128)
+        z[self.boundary] = zb
+        z[self.interior] = self.interior_values(zb)
+        return z
+
+    def flux(self, zb: NDArray[np.complex128], interior: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        """``S zb``, S = Lbb - Lbi Lii^-1 Lib: outward flux (nb,) of the extension with these interior values."""
+        return self.Lbb @ zb + self.Lbi @ interior
+
+    def harmonic_measure(self, vertex: int) -> NDArray[np.float64]:
+        """Harmonic measure of the boundary vertices seen from an interior vertex, (nb,); it sums to 1.
+
+        The flux of the Green's function with its pole at the vertex.
+        """
+        pole = np.zeros(len(self.interior))
+        pole[np.searchsorted(self.interior, vertex)] = 1.0
+        return -(self.Lbi @ self.solve(pole))

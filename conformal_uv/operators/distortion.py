@@ -1,0 +1,121 @@
+"""How far a map is from keeping angles and areas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import MeshError, NonFiniteError, listed
+from ..mesh.arrays import face_array, vertex_array
+from ..mesh.geometry import TriangleGeometry, triangle_geometry
+from ..mesh.manifold import check_areas
+from .wirtinger import planar_sides, signed_double_areas, unfolded_sides, wirtinger
+
+__all__ = ["Distortion", "distortion", "distortion_of"]
+
+
+@dataclass(frozen=True, eq=False)
+class Distortion:
+    """Distortion of a piecewise linear map, face by face.
+
+    Attributes
+    ----------
+    angle_error : (m, 3) float64
+        ``|angle in the image - angle on the surface|`` at each corner, degrees.
+    quasi_conformal : (m,) float64
+        Larger over smaller singular value, at least 1; infinite where the image of a face has no area.
+    area_scale : (m,) float64
+        Area of the image over area of the face, not negative.
+    flipped : (k,) int64
+        Faces whose image has non-positive signed area.
+    """
+
+    angle_error: NDArray[np.float64]
+    quasi_conformal: NDArray[np.float64]
+    area_scale: NDArray[np.float64]
+    flipped: NDArray[np.int64]
+
+    @cached_property
+    def angle_mean(self) -> float:
+        """Mean angle error over all corners, degrees."""
+        return float(self.angle_error.mean())
+
+    @cached_property
+    def angle_sd(self) -> float:
+        """Standard deviation of the angle error, degrees."""
+        return float(self.angle_error.std())
+
+    @cached_property
+    def angle_max(self) -> float:
+        """Largest angle error, degrees."""
+        return float(self.angle_error.max())
+
+
+def distortion(V: ArrayLike, F: ArrayLike, image: ArrayLike) -> Distortion:
+    """Distortion of the map that takes the vertices V to `image`.
+
+    Parameters
+    ----------
+    V : (n, 3) floats
+    F : (m, 3) integers
+    image : (n, 2) or (n, 3) floats
+        Positions in the plane, or on a sphere around the origin (a face is flipped when it is seen from outside
+        in the opposite sense).
+
+    Raises
+    ------
+    MeshError
+        The arrays are not a mesh or the image has another number of vertices; DegenerateFaceError on faces of
+        the surface without area; NonFiniteError on positions that are NaN or infinite.
+    """
+    vertices = vertex_array(V)
+    corners = face_array(F, len(vertices))
+    positions = np.asarray(image, dtype=np.float64)
+    if positions.ndim != 2 or positions.shape[1] not in (2, 3) or len(positions) != len(vertices):
+        raise MeshError(
+            f"The image has shape {positions.shape}; pass ({len(vertices)}, 2) or ({len(vertices)}, 3)."
+        )
+    bad = np.flatnonzero(~np.isfinite(positions).all(axis=1))
+    if len(bad):
+        raise NonFiniteError(f"The image of {len(bad)} vertices is NaN or infinite: vertices {listed(bad)}.", bad)
+    geometry = triangle_geometry(vertices, corners)
+    check_areas(geometry)
+    return distortion_of(geometry, corners, positions)
+
+
+def distortion_of(
+    geometry: TriangleGeometry, corners: NDArray[np.int32], image: NDArray[np.float64], unit: float = 1.0
+) -> Distortion:
+    """The same for geometry at hand, its unit of length being `unit`, and positions already checked."""
+    shape = triangle_geometry(image, corners)
+    if image.shape[1] == 2:
+        sides = planar_sides(np.ascontiguousarray(image).view(np.complex128).reshape(-1), corners)
+        signed = signed_double_areas(sides)
+    else:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            first, second = unfolded_sides(shape)
+        second = np.where(first == 0, np.sqrt(shape.squared_lengths[2]), second)  # corners 0 and 1 coincide
+        signed = np.sign(_outward(image, corners)) * shape.double_area
+        sides = first, np.where(signed < 0, second.conj(), second)
+    fz, fzbar = wirtinger(unfolded_sides(geometry), sides, geometry.double_area)
+    plus, minus = np.abs(fz), np.abs(fzbar)
+    small = np.abs(plus - minus)
+    ratio = np.full(len(plus), np.inf)
+    np.divide(plus + minus, small, out=ratio, where=small > 0)
+    angle = np.arctan2(geometry.double_area, geometry.dot)
+    angle -= np.arctan2(shape.double_area, shape.dot)
+    return Distortion(
+        angle_error=np.degrees(np.abs(angle, out=angle), out=angle).T,
+        quasi_conformal=ratio,
+        area_scale=shape.double_area / geometry.double_area / unit / unit,
+        flipped=np.flatnonzero(signed <= 0),
+    )
+
+
+def _outward(image: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Six times the signed volume of the tetrahedron from the origin to each face, (m,)."""
+    a, b, c = (image[corner] for corner in corners)
+    return np.einsum("ij,ij->i", a, np.cross(b, c))
