@@ -23,7 +23,7 @@ def disk_map(
     pin_mode: str | None = None,
     center: int | None = None,
     boundary_vertex: int | None = None,
-    tolerance: float = 1e-8,
+    tolerance: float = 1e-10,
     max_iterations: int = 50,
     backend: str = "auto",
     callback: Callback | None = None,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..operators.moebius import centring_step, turned_angles
 
-__all__ = ["CentreGauge", "Gauge", "PinGauge"]
+__all__ = ["CentreGauge", "Gauge", "PinGauge", "TurnGauge"]
 
 Real = NDArray[np.float64]
 
@@ -18,7 +18,7 @@ class Gauge(Protocol):
     """Constraints on the boundary angles."""
 
     def normals(self, theta: Real) -> Real:
-        """Three columns (nb, 3) to which a step must be orthogonal to keep the constraints to first order."""
+        """Columns (nb, c) to which a step must be orthogonal to keep the constraints to first order."""
         ...
 
     def restore(self, theta: Real) -> Real:
@@ -48,6 +48,22 @@ class CentreGauge:
             theta = turned_angles(theta, step)
             if abs(step) < 1e-15:
                 break
+        return theta + (self._mean - float(self._measure @ theta))
+
+
+class TurnGauge:
+    """Only the mean angle stays still; the image of the centre may move."""
+
+    def __init__(self, measure: Real, theta: Real) -> None:
+        self._measure = measure
+        self._mean = float(measure @ theta)
+
+    def normals(self, theta: Real) -> Real:
+        """See Gauge."""
+        return self._measure[:, None]
+
+    def restore(self, theta: Real) -> Real:
+        """See Gauge."""
         return theta + (self._mean - float(self._measure @ theta))
 
 

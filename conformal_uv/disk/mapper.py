@@ -67,7 +67,7 @@ class DiskMapper:
         pin_mode: str | None = None,
         center: int | None = None,
         boundary_vertex: int | None = None,
-        tolerance: float = 1e-8,
+        tolerance: float = 1e-10,
         max_iterations: int = 50,
         callback: Callback | None = None,
     ) -> DiskMap:

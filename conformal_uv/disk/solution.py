@@ -12,6 +12,7 @@ from ..operators.dirichlet import DirichletProblem
 from ..operators.laplacian import cotangent_weights, laplacian_matrix, uniform_weights
 from ..progress import Progress
 from .augmented_lagrangian import AugmentedLagrangianStep, area_hessian, augmented_lagrangian
+from .centre_cell import release_centre
 from .gauge import CentreGauge, PinGauge
 from .harmonic_measure import CentredMeasure
 from .newton import NewtonResult, NewtonStep, minimise_boundary_energy
@@ -63,12 +64,15 @@ def solve_newton(
         max_iterations=options.max_iterations,
         progress=progress,
     )
+    released = False
+    if pins is None and options.objective == "conformal" and found.converged:
+        found, released = release_centre(surface, problem, measure, found, options, progress)
     z = np.empty(problem.n, dtype=np.complex128)
     z[loop], z[problem.interior] = found.energy.z, found.energy.interior
     if pins is not None:
         z[list(pins)] = CUBE_ROOTS
         return Solution(z, None, found.history, found.converged, fixed=True)
-    return Solution(z, measure.centre, found.history, found.converged)
+    return Solution(z, None if released else measure.centre, found.history, found.converged)
 
 
 def solve_augmented_lagrangian(

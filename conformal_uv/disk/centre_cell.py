@@ -1,0 +1,83 @@
+"""The centre of a map is known only to within a cell of the mesh; inside it, the least energy decides.
+
+A vertex held at 0 is off the point that belongs there by a fraction of an edge, and a Moebius map by so little
+already costs discrete energy: a flat disk would not come back as itself. Where the energy has its minimum with
+the centre's image free, and free it stays within the star of the central vertex, that minimum is the map.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface
+from ..operators.dirichlet import DirichletProblem
+from ..progress import Progress
+from .boundary_energy import BoundaryEnergy
+from .gauge import TurnGauge
+from .harmonic_measure import CentredMeasure
+from .newton import NewtonResult, minimise_boundary_energy
+from .options import DiskOptions
+
+__all__ = ["release_centre"]
+
+
+def release_centre(
+    surface: Surface,
+    problem: DirichletProblem,
+    measure: CentredMeasure,
+    found: NewtonResult,
+    options: DiskOptions,
+    progress: Progress,
+) -> tuple[NewtonResult, bool]:
+    """Minimise without holding the centre, where that keeps it in its cell.
+
+    Parameters
+    ----------
+    found : NewtonResult
+        The minimum with the centre at 0.
+
+    Returns
+    -------
+    The new minimum and True, or `found` and False.
+    """
+    if measure.centre is None:
+        return found, False
+    reach = _star_radius(surface, problem, measure.centre, found.energy)
+    if not _predicted_shift(found.energy) < reach:
+        return found, False
+    free = minimise_boundary_energy(
+        problem,
+        found.energy.theta,
+        TurnGauge(measure.vertex_measure, found.energy.theta),
+        minus_area=True,
+        tolerance=options.tolerance,
+        max_iterations=options.max_iterations,
+        progress=progress,
+    )
+    shift = abs(complex(measure.vertex_measure @ free.energy.z))
+    if not (free.converged and shift < reach):
+        return found, False
+    return free._replace(history=found.history[:-1] + free.history), True
+
+
+def _star_radius(surface: Surface, problem: DirichletProblem, centre: int, energy: BoundaryEnergy) -> float:
+    """Distance of the farthest neighbour of the central vertex from it in the map."""
+    edges = surface.edges
+    neighbours = np.concatenate((edges.hi[edges.lo == centre], edges.lo[edges.hi == centre]))
+    z: NDArray[np.complex128] = np.empty(problem.n, dtype=np.complex128)
+    z[problem.boundary], z[problem.interior] = energy.z, energy.interior
+    return float(np.abs(z[neighbours] - z[centre]).max())
+
+
+def _predicted_shift(energy: BoundaryEnergy) -> float:
+    """How far Newton's step in the two Moebius directions that move the centre would move it.
+
+    A map of the disk that moves 0 to a turns the angles by ``2 Im(a exp(-i theta))`` to first order.
+    """
+    moves = np.column_stack((-2.0 * np.sin(energy.theta), 2.0 * np.cos(energy.theta)))
+    slope = moves.T @ energy.gradient
+    curvature = moves.T @ np.column_stack([energy.hessian_product(move) for move in moves.T])
+    if np.linalg.eigvalsh(curvature)[0] <= 0.0:
+        return np.inf
+    return float(np.linalg.norm(np.linalg.solve(curvature, slope)))
