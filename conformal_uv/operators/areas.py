@@ -22,7 +22,7 @@ def lumped_areas(
     geometry: TriangleGeometry, corners: NDArray[np.int32], n: int
 ) -> NDArray[np.float64]:
     """A third of the area of the faces around each vertex, (n,)."""
-    return np.bincount(corners.reshape(-1), np.tile(geometry.double_area / 6.0, 3), n)
+    return np.bincount(corners.reshape(-1), weights=np.tile(geometry.double_area / 6.0, 3), minlength=n)
 
 
 def mixed_voronoi_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
@@ -46,4 +46,4 @@ def mixed_voronoi_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
     obtuse = dot < 0.0
     share = np.where(obtuse, area / 2.0, area / 4.0)
     share = np.where(obtuse.any(axis=0), share, voronoi)
-    return np.bincount(corners.reshape(-1), share.reshape(-1), len(vertices))
+    return np.bincount(corners.reshape(-1), weights=share.reshape(-1), minlength=len(vertices))
