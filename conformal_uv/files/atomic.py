@@ -1,0 +1,48 @@
+"""Replace a file in one step: after a failure the old one is still there, whole."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+from collections.abc import Iterator
+from typing import BinaryIO
+
+from conformal_uv.errors import FileFormatError
+
+__all__ = ["replaced_file"]
+
+
+@contextlib.contextmanager
+def replaced_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """A binary stream whose content becomes ``path`` when the block ends without an error.
+
+    The content goes to a temporary file beside the target, is flushed to the disk and renamed over it. A file
+    that is replaced keeps its permissions, a new one gets those of the umask; a symbolic link is followed.
+
+    Raises
+    ------
+    FileFormatError
+        The file can not be written. The target is then as it was, and so it is after any other error.
+    """
+    target = os.path.realpath(path)
+    temporary = os.path.join(os.path.dirname(target), f".{secrets.token_hex(8)}.tmp")
+    try:
+        # Created with 0o666 so that the umask applies; tempfile would make it private to the user.
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+        descriptor = os.open(temporary, flags, 0o666)
+        try:
+            with os.fdopen(descriptor, "wb") as stream:
+                yield stream
+                stream.flush()
+                os.fsync(stream.fileno())
+            with contextlib.suppress(FileNotFoundError):
+                os.chmod(temporary, os.stat(target).st_mode & 0o7777)
+            os.replace(temporary, target)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+            raise
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise FileFormatError(f"{path}: can not be written: {reason}; the file is left as it was") from error

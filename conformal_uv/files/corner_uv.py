@@ -1,0 +1,85 @@
+"""Texture coordinates of polygon corners: which faces have them, and which corners share them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conformal_uv.errors import NonFiniteError, OptionError, listed
+from conformal_uv.mesh.polygons import PolygonMesh
+
+__all__ = ["checked_corner_uv", "filled_corner_uv", "mapped_faces", "shared_uv", "vertex_uv"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+def checked_corner_uv(mesh: PolygonMesh, corner_uv: Floats) -> Floats:
+    """``corner_uv`` as (k, 2) float64.
+
+    Raises
+    ------
+    OptionError
+        It has not one row of two numbers for each corner.
+    NonFiniteError
+        A number is infinite (NaN is a corner without texture coordinates).
+    """
+    uv = np.asarray(corner_uv, dtype=np.float64)
+    if uv.shape != (len(mesh.corners), 2):
+        raise OptionError(f"corner_uv has the shape {uv.shape}; the mesh has {len(mesh.corners)} corners, "
+                          f"so it must be ({len(mesh.corners)}, 2)")
+    infinite = np.flatnonzero(np.isinf(uv).any(axis=1))
+    if len(infinite):
+        raise NonFiniteError(f"infinite texture coordinates at corners {listed(infinite)}; "
+                             "use NaN for a corner that has none", infinite)
+    return uv
+
+
+def mapped_faces(mesh: PolygonMesh, uv: Floats) -> NDArray[np.bool_]:
+    """The faces that have texture coordinates at every corner, (p,)."""
+    missing = np.concatenate([np.zeros(1, np.int64), np.cumsum(np.isnan(uv).any(axis=1))])
+    return np.asarray(missing[mesh.starts[1:]] == missing[mesh.starts[:-1]])
+
+
+def filled_corner_uv(mesh: PolygonMesh, uv: Floats, old: Floats | None) -> Floats:
+    """``uv``; on the faces that it does not map whole, ``old`` (NaN where there is none)."""
+    mapped = np.repeat(mapped_faces(mesh, uv), mesh.sizes)
+    return np.where(mapped[:, None], uv, np.nan if old is None else old)
+
+
+def shared_uv(vertex: Ints, uv: Floats) -> tuple[Ints, Ints]:
+    """Number the different texture coordinates at each vertex.
+
+    Returns
+    -------
+    number : (c,) int64
+        One number for the corners of a vertex that have equal coordinates, ascending with the vertex.
+    example : (t,) int64
+        A corner for each number.
+    """
+    first = np.full(int(vertex.max(initial=-1)) + 1, -1, np.int64)
+    first[vertex[::-1]] = np.arange(len(vertex))[::-1]
+    example_of = first[vertex]
+    seam = np.zeros(len(first), dtype=bool)
+    seam[vertex[(uv != uv[example_of]).any(axis=1)]] = True
+    at = np.flatnonzero(seam[vertex])
+    at = at[np.lexsort((uv[at, 1], uv[at, 0], vertex[at]))]  # stable: equal corners stay in file order
+    new = np.ones(len(at), dtype=bool)
+    new[1:] = (vertex[at[1:]] != vertex[at[:-1]]) | (uv[at[1:]] != uv[at[:-1]]).any(axis=1)
+    example_of[at] = at[new][np.cumsum(new) - 1]
+    is_example = np.zeros(len(vertex), dtype=bool)
+    is_example[example_of] = True
+    example = np.flatnonzero(is_example)
+    example = example[np.lexsort((example, vertex[example]))]
+    number = np.empty(len(vertex), np.int64)
+    number[example] = np.arange(len(example))
+    return number[example_of], example
+
+
+def vertex_uv(mesh: PolygonMesh, uv: Floats) -> Floats | None:
+    """(n, 2) if every vertex has corners and all of them the same coordinates, else None."""
+    if np.isnan(uv).any():
+        return None
+    each = np.full((len(mesh.V), 2), np.nan)
+    each[mesh.corners] = uv
+    return each if (each[mesh.corners] == uv).all() and not np.isnan(each).any() else None

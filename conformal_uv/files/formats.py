@@ -1,0 +1,123 @@
+"""The file formats, by suffix."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conformal_uv.errors import FileFormatError
+from conformal_uv.files.atomic import replaced_file
+from conformal_uv.files.corner_uv import checked_corner_uv
+from conformal_uv.files.mesh_file import MeshFile
+from conformal_uv.files.npz import read_npz, write_npz
+from conformal_uv.files.obj_read import read_obj
+from conformal_uv.files.obj_write import write_obj
+from conformal_uv.files.off import read_off
+from conformal_uv.files.ply_read import read_ply
+from conformal_uv.files.ply_write import write_ply
+from conformal_uv.files.stl import read_stl
+
+__all__ = ["READABLE", "WRITABLE", "check_writable", "read_mesh", "write_mesh"]
+
+_READERS: dict[str, Callable[[Path], MeshFile]] = {
+    ".obj": read_obj,
+    ".ply": read_ply,
+    ".off": read_off,
+    ".stl": read_stl,
+    ".npz": read_npz,
+}
+_WRITERS: dict[str, Callable[[BinaryIO, MeshFile, NDArray[np.float64]], None]] = {
+    ".obj": write_obj,
+    ".ply": write_ply,
+    ".npz": write_npz,
+}
+READABLE = tuple(_READERS)
+WRITABLE = tuple(_WRITERS)
+
+
+def read_mesh(path: str | os.PathLike[str]) -> MeshFile:
+    """Read a mesh: OBJ, PLY, OFF, STL or npz, by the file's suffix.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+
+    Returns
+    -------
+    MeshFile
+        Polygons as they stand in the file, and its texture coordinates by corner.
+
+    Raises
+    ------
+    FileFormatError
+        No such file, a suffix that is not known, or content that is damaged or is no mesh.
+    MissingDependencyError
+        The library for this format is not installed.
+    """
+    path = Path(path)
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise FileFormatError(f"{path}: files of the type {path.suffix!r} are not read; "
+                              f"use {', '.join(READABLE)}")
+    return reader(path)
+
+
+def write_mesh(path: str | os.PathLike[str], source: MeshFile, *, corner_uv: NDArray[np.float64]) -> None:
+    """Write a mesh with new texture coordinates: OBJ, PLY or npz, by the file's suffix.
+
+    A file of the same format as the source's keeps everything else that was in it. The target is replaced in
+    one step, so it may be the source; after an error it is as it was.
+
+    Parameters
+    ----------
+    path : path-like
+        The file to write.
+    source : MeshFile
+        The mesh, as `read_mesh` gave it.
+    corner_uv : (k, 2) float
+        Texture coordinates of every polygon corner. A face with NaN at a corner keeps those that the source
+        had, or has none.
+
+    Raises
+    ------
+    FileFormatError
+        The file can not be written there, or not in this format.
+    OptionError, NonFiniteError
+        ``corner_uv`` does not fit the mesh or is infinite somewhere.
+    MissingDependencyError
+        The library for this format is not installed.
+    """
+    check_writable(path)
+    uv = checked_corner_uv(source.mesh, corner_uv)
+    with replaced_file(path) as stream:
+        _WRITERS[Path(path).suffix.lower()](stream, source, uv)
+
+
+def check_writable(path: str | os.PathLike[str]) -> None:
+    """Refuse, before any work is done, a name that `write_mesh` could not write.
+
+    Raises
+    ------
+    FileFormatError
+        The suffix is not that of a format written here, the folder does not exist or is write-protected, or
+        the file is a folder or write-protected.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in _WRITERS:
+        raise FileFormatError(f"{path}: files of the type {path.suffix!r} are not written; "
+                              f"use {', '.join(WRITABLE)}")
+    target = Path(os.path.realpath(path))
+    if not target.parent.is_dir():
+        raise FileFormatError(f"{path}: the folder {target.parent} does not exist; create it first")
+    if target.is_dir():
+        raise FileFormatError(f"{path}: this is a folder; give the name of a file")
+    if not os.access(target.parent, os.W_OK):
+        raise FileFormatError(f"{path}: the folder {target.parent} is write-protected; choose another")
+    if target.exists() and not os.access(target, os.W_OK):
+        raise FileFormatError(f"{path}: the file is write-protected; choose another name")

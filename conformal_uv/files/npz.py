@@ -1,0 +1,107 @@
+"""Meshes as numpy archives: V with F, or with corners and starts; uv or corner_uv."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.lib import format as npy
+from numpy.typing import NDArray
+
+from conformal_uv.errors import FileFormatError
+from conformal_uv.files.checks import checked_mesh, file_bytes, foreign_parser
+from conformal_uv.files.corner_uv import filled_corner_uv, vertex_uv
+from conformal_uv.files.mesh_file import MeshFile
+
+__all__ = ["read_npz", "write_npz"]
+
+NAMES = ("V", "F", "corners", "starts", "uv", "corner_uv")
+DEFLATE_LIMIT = 1100
+"""Deflate packs no more than 1032 bytes into one; an archive that claims more is damaged."""
+
+
+def read_npz(path: Path) -> MeshFile:
+    """Read an archive of V (n, 3) and F (m, 3) (or (m, s) polygons), or V, corners (k,) and starts (p + 1,).
+
+    Texture coordinates are taken from corner_uv (k, 2), else from uv (n, 2).
+    """
+    data = file_bytes(path)
+    with foreign_parser(path, "npz"), zipfile.ZipFile(io.BytesIO(data)) as archive:
+        members = {name.removesuffix(".npy"): name for name in archive.namelist()}
+        arrays = {name: _array(path, archive, members[name], len(data)) for name in NAMES if name in members}
+    V = _numbers(path, arrays, "V", "(n, 3)")
+    if "F" in arrays and "corners" not in arrays:
+        F = _whole(path, arrays, "F", 2)
+        corners, sizes = F.reshape(-1), np.full(len(F), F.shape[1], np.int64)
+    else:
+        corners, starts = _whole(path, arrays, "corners", 1), _whole(path, arrays, "starts", 1)
+        sizes = np.diff(starts)
+        if not len(starts) or starts[0] != 0 or starts[-1] != len(corners) or (sizes < 0).any():
+            raise FileFormatError(f"{path}: 'starts' must ascend from 0 to {len(corners)}, the corner count")
+    mesh = checked_mesh(path, V, corners, sizes)
+    uv = None
+    if "corner_uv" in arrays:
+        uv = _numbers(path, arrays, "corner_uv", "(k, 2)", len(corners))
+    elif "uv" in arrays:
+        uv = _numbers(path, arrays, "uv", "(n, 2)", len(V))[corners]
+    return MeshFile(path, mesh, uv)
+
+
+def write_npz(stream: BinaryIO, source: MeshFile, corner_uv: NDArray[np.float64]) -> None:
+    """Write V, corners, starts, corner_uv; F if all faces are triangles; uv if each vertex has one pair."""
+    mesh = source.mesh
+    uv = filled_corner_uv(mesh, corner_uv, source.corner_uv)
+    arrays = {"V": mesh.V, "corners": mesh.corners, "starts": mesh.starts, "corner_uv": uv}
+    if (mesh.sizes == 3).all():
+        arrays["F"] = mesh.corners.reshape(-1, 3)
+    each = vertex_uv(mesh, uv)
+    if each is not None:
+        arrays["uv"] = each
+    np.savez(stream, allow_pickle=False, **arrays)
+
+
+def _array(path: Path, archive: zipfile.ZipFile, member: str, size: int) -> NDArray[Any]:
+    """One array, its size checked against the archive's before anything is allocated for it."""
+    if archive.getinfo(member).file_size > DEFLATE_LIMIT * size:
+        raise FileFormatError(f"{path}: {member!r} claims more data than the archive can hold; it is damaged")
+    raw = archive.read(member)
+    stream = io.BytesIO(raw)
+    version = npy.read_magic(stream)
+    read_header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
+    shape, fortran, dtype = read_header(stream)
+    if dtype.hasobject or dtype.kind not in "iuf":
+        raise FileFormatError(f"{path}: {member!r} holds {dtype}, not real numbers; save plain numpy arrays")
+    count = 1
+    for extent in shape:
+        count *= int(extent)
+    if count < 0 or count * dtype.itemsize > len(raw) - stream.tell():
+        raise FileFormatError(f"{path}: {member!r} is cut short: {shape} of {dtype} in {len(raw)} bytes")
+    values = np.frombuffer(raw, dtype, count, stream.tell())
+    return values.reshape(shape, order="F" if fortran else "C")
+
+
+def _present(path: Path, arrays: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
+    if name not in arrays:
+        raise FileFormatError(f"{path}: no array {name!r}; save V and F, or V, corners and starts "
+                              f"(found: {', '.join(arrays) or 'none of these'})")
+    return arrays[name]
+
+
+def _numbers(path: Path, arrays: dict[str, NDArray[Any]], name: str, shape: str,
+             rows: int | None = None) -> NDArray[np.float64]:
+    array = _present(path, arrays, name)
+    if array.ndim != 2 or array.shape[1] != int(shape[-2]) or rows not in (None, len(array)):
+        raise FileFormatError(f"{path}: {name!r} has the shape {array.shape}; it must be {shape}"
+                              + ("" if rows is None else f" with {rows} rows"))
+    return array.astype(np.float64)
+
+
+def _whole(path: Path, arrays: dict[str, NDArray[Any]], name: str, ndim: int) -> NDArray[np.int64]:
+    array = _present(path, arrays, name)
+    if array.ndim != ndim or array.dtype.kind not in "iu":
+        raise FileFormatError(f"{path}: {name!r} has the shape {array.shape} and type {array.dtype}; "
+                              f"it must be {ndim}-dimensional, of integers")
+    return array.astype(np.int64)
