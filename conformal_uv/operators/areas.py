@@ -22,7 +22,8 @@ def lumped_areas(
     geometry: TriangleGeometry, corners: NDArray[np.int32], n: int
 ) -> NDArray[np.float64]:
     """A third of the area of the faces around each vertex, (n,)."""
-    return np.bincount(corners.reshape(-1), weights=np.tile(geometry.double_area / 6.0, 3), minlength=n)
+    share = np.tile(geometry.double_area / 6.0, 3)
+    return np.bincount(corners.reshape(-1), weights=share, minlength=n).astype(np.float64, copy=False)
 
 
 def mixed_voronoi_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
@@ -45,5 +46,5 @@ def mixed_voronoi_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
     voronoi = part + part[[2, 0, 1]]  # the two edges at the corner
     obtuse = dot < 0.0
     share = np.where(obtuse, area / 2.0, area / 4.0)
-    share = np.where(obtuse.any(axis=0), share, voronoi)
-    return np.bincount(corners.reshape(-1), weights=share.reshape(-1), minlength=len(vertices))
+    share = np.where(obtuse.any(axis=0), share, voronoi).reshape(-1)
+    return np.bincount(corners.reshape(-1), weights=share, minlength=len(vertices)).astype(np.float64, copy=False)

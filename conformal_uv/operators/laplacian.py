@@ -99,8 +99,8 @@ def cotangent_weights(edges: HalfEdges, geometry: TriangleGeometry) -> NDArray[n
     """Weight (cot a + cot b) / 2 of every edge, (e,)."""
     half_cot = geometry.dot[[2, 0, 1]]  # the corner opposite to half-edge c is c + 2
     half_cot /= 2.0 * geometry.double_area
-    weights: NDArray[np.float64] = np.bincount(edges.edge, weights=half_cot.reshape(-1), minlength=len(edges.lo))
-    return weights
+    weights = np.bincount(edges.edge, weights=half_cot.reshape(-1), minlength=len(edges.lo))
+    return weights.astype(np.float64, copy=False)
 
 
 def uniform_weights(edges: HalfEdges) -> NDArray[np.float64]:

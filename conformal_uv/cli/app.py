@@ -1,0 +1,63 @@
+"""The commands, and what they share: version, errors in one line, exit codes 0, 1 and 2."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Annotated, ParamSpec
+
+import typer
+
+from .._version import __version__
+from ..errors import ConformalUVError
+from .disk import disk
+from .report import report
+from .sample import sample
+
+__all__ = ["app"]
+
+P = ParamSpec("P")
+
+app = typer.Typer(
+    name="conformal-uv",
+    help="Map surfaces to the unit disk with their angles kept.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+)
+
+
+def _told(command: Callable[P, None]) -> Callable[P, None]:
+    """Turn an error of ours into one line on stderr and exit code 1."""
+
+    @functools.wraps(command)
+    def run(*args: P.args, **kwargs: P.kwargs) -> None:
+        try:
+            command(*args, **kwargs)
+        except ConformalUVError as error:
+            message = " ".join(str(error).split())
+            typer.echo(f"{type(error).__name__}: {message}", err=True)
+            raise typer.Exit(1) from error
+        except OSError as error:
+            typer.echo(f"{type(error).__name__}: {error}", err=True)
+            raise typer.Exit(1) from error
+
+    return run
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"conformal-uv {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """Map surfaces to the unit disk with their angles kept."""
+
+
+for command in (disk, report, sample):
+    app.command()(_told(command))

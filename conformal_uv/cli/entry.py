@@ -1,0 +1,21 @@
+"""Start of the conformal-uv command."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run the command; say what to install when its libraries are missing."""
+    missing = [name for name in ("typer", "rich") if importlib.util.find_spec(name) is None]
+    if missing:
+        sys.stderr.write(
+            f'conformal-uv: {" and ".join(missing)} not installed; run: pip install "conformal-uv[cli]"\n'
+        )
+        raise SystemExit(1)
+    from .app import app
+
+    app()

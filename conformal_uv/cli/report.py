@@ -1,0 +1,128 @@
+"""conformal-uv report: what a mesh is, whether it can be mapped, and how distorted the UVs are that it has."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from numpy.typing import NDArray
+
+from ..errors import MeshError
+from ..files import MeshFile, read_mesh, replaced_file
+from ..mesh import Surface
+from ..mesh.geometry import triangle_geometry
+from ..mesh.manifold import degenerate_faces
+from ..mesh.triangulate import triangulate
+from ..operators.distortion import distortion_of
+from ..operators.laplacian import cotangent_weights
+from .summary import distortion_summary, print_rows
+
+__all__ = ["report"]
+
+
+def report(
+    source: Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL or NPZ.")],
+    json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table.")] = False,
+) -> None:
+    """Tell what a mesh is: its topology, angles, weights, and the distortion of its UVs."""
+    mesh_file = read_mesh(source)
+    F, _, corner_of = triangulate(mesh_file.mesh)
+    summary: dict[str, Any] = {
+        "input": str(source),
+        "vertices": len(mesh_file.mesh.V),
+        "faces": len(mesh_file.mesh.sizes),
+        "triangles": len(F),
+    }
+    try:
+        summary.update(_surface_summary(Surface.from_arrays(mesh_file.mesh.V, F)))
+    except MeshError as error:
+        summary["not_a_surface"] = f"{type(error).__name__}: {error}"
+    summary["uv"] = _uv_summary(mesh_file, corner_of)
+    if json_file is not None:
+        with replaced_file(json_file) as out:
+            out.write(json.dumps(summary, indent=2).encode())
+    if not quiet:
+        _print(summary)
+
+
+def _surface_summary(surface: Surface) -> dict[str, Any]:
+    geometry = surface.geometry
+    angles = np.degrees(np.arctan2(geometry.double_area, geometry.dot))
+    weights = cotangent_weights(surface.edges, geometry)[surface.edges.count == 2]
+    try:
+        surface.require_disk()
+        kind = "disk"
+    except MeshError as error:
+        kind = str(error)
+    return {
+        "edges": len(surface.edges.lo),
+        "pieces": surface.pieces,
+        "genus": surface.genus,
+        "euler_characteristic": surface.euler_characteristic,
+        "boundary_loops": [
+            {"vertices": len(loop), "length": surface.loop_length(loop) * surface.unit} for loop in surface.loops
+        ],
+        "area": float(0.5 * geometry.double_area.sum() * surface.unit * surface.unit),
+        "angle_degrees": {"min": float(angles.min()), "max": float(angles.max())},
+        "negative_weights": int((weights < 0).sum()),
+        "interior_edges": len(weights),
+        "topology": kind,
+    }
+
+
+def _uv_summary(mesh_file: MeshFile, corner_of: NDArray[np.int64]) -> dict[str, Any] | None:
+    """Distortion of the file's own UVs over the faces that have them and have area."""
+    uv = mesh_file.corner_uv
+    if uv is None:
+        return None
+    has = np.isfinite(uv[corner_of]).all(axis=(1, 2))
+    corners = corner_of[has].T.astype(np.int32)
+    if not corners.size:
+        return None
+    positions = mesh_file.mesh.V[mesh_file.mesh.corners]
+    positions = positions / max(np.abs(positions).max(), np.finfo(np.float64).tiny)
+    geometry = triangle_geometry(positions, corners)
+    good = np.ones(corners.shape[1], dtype=bool)
+    good[degenerate_faces(geometry)] = False
+    if not good.any():
+        return None
+    corners = np.ascontiguousarray(corners[:, good])
+    filled = np.nan_to_num(uv, nan=0.0)
+    measured = distortion_of(triangle_geometry(positions, corners), corners, filled)
+    return {"triangles": corners.shape[1], **distortion_summary(measured)}
+
+
+def _print(summary: dict[str, Any]) -> None:
+    counts = f"{summary['vertices']} vertices, {summary['faces']} faces"
+    if summary["triangles"] != summary["faces"]:
+        counts += f" ({summary['triangles']} triangles)"
+    rows = [("mesh", counts)]
+    if "not_a_surface" in summary:
+        rows.append(("problem", summary["not_a_surface"]))
+    else:
+        rows += _surface_rows(summary)
+    uv = summary["uv"]
+    told = "none"
+    if uv is not None:
+        told = "angle error mean {mean:.4g}, sd {sd:.4g}, max {max:.4g} degrees; ".format(**uv["angle_error_degrees"])
+        told += f"{uv['flipped_faces']} of {uv['triangles']} triangles flipped"
+    rows.append(("UVs", told))
+    print_rows(rows)
+
+
+def _surface_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:
+    loops = summary["boundary_loops"]
+    told = [f"{loop['vertices']} vertices (length {loop['length']:.4g})" for loop in loops[:6]]
+    told += ["..."] if len(loops) > 6 else []
+    return [
+        ("topology", summary["topology"]),
+        ("pieces", f"{summary['pieces']}, genus {summary['genus']}"),
+        ("boundary loops", f"{len(loops)}: {', '.join(told)}" if loops else "none"),
+        ("area", f"{summary['area']:.6g}"),
+        ("angles", "{min:.4g} to {max:.4g} degrees".format(**summary["angle_degrees"])),
+        ("negative weights", f"{summary['negative_weights']} of {summary['interior_edges']} interior edges"),
+    ]
