@@ -5,7 +5,6 @@ from .disk import DiskMap, DiskMapper, disk_map
 from .errors import (
     CancelledError,
     ConformalUVError,
-    ConvergenceError,
     DegenerateFaceError,
     DisconnectedError,
     DuplicateFaceError,
@@ -35,7 +34,6 @@ from .operators import (
 __all__ = [
     "CancelledError",
     "ConformalUVError",
-    "ConvergenceError",
     "DegenerateFaceError",
     "DisconnectedError",
     "DiskMap",

@@ -8,7 +8,6 @@ from itertools import islice
 __all__ = [
     "CancelledError",
     "ConformalUVError",
-    "ConvergenceError",
     "DegenerateFaceError",
     "DisconnectedError",
     "DuplicateFaceError",
@@ -86,10 +85,6 @@ class FileFormatError(ConformalUVError, ValueError):
 
 class SolverError(ConformalUVError, RuntimeError):
     """The numerical solution failed."""
-
-
-class ConvergenceError(SolverError):
-    """An iteration stopped before it reached its tolerance."""
 
 
 class MissingDependencyError(ConformalUVError, ImportError):

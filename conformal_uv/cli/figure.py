@@ -70,7 +70,8 @@ def _view(
     axes = np.stack((right, np.cross(front, right), front))
     turned = V @ axes.T
     length = np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), np.finfo(float).tiny)
-    light = 0.25 + 0.72 * np.abs((cross / length) @ axes.T @ (LIGHT / np.linalg.norm(LIGHT)))
+    facing = (cross / length) @ axes.T @ (LIGHT / np.linalg.norm(LIGHT))
+    light = 0.97 * (0.5 + 0.5 * facing) ** 1.5
     colour = np.column_stack((light, 0.97 * light, 0.92 * light, np.ones(len(F))))
     return turned[:, :2], turned[F, 2].mean(axis=1), colour
 

@@ -18,13 +18,16 @@ __all__ = ["write_ply"]
 
 Floats = NDArray[np.float64]
 
+WRITTEN_UV = (("s", "t"), ("texture_u", "texture_v"))
+"""The coordinates are stored under both names: as double, MeshLab reads only the second, others only the first."""
+
 
 def write_ply(stream: BinaryIO, source: MeshFile, corner_uv: Floats) -> None:
     """Write ``source`` with new texture coordinates.
 
-    They become the vertex properties s and t (double) where every vertex has one pair, else the face list
-    texcoord (float), MeshLab's wedge coordinates, empty for a face that has none. The other elements and
-    properties of a file that came from PLY stay, and so does its text or binary format.
+    They become vertex properties (double) where every vertex has one pair, else the face list texcoord (float),
+    MeshLab's wedge coordinates, empty for a face that has none. The other elements and properties of a file
+    that came from PLY stay, and so does its text or binary format.
     """
     try:
         import plyfile
@@ -41,7 +44,7 @@ def write_ply(stream: BinaryIO, source: MeshFile, corner_uv: Floats) -> None:
     for k, element in enumerate(elements):
         added: dict[str, Any]
         if element.name == "vertex":
-            added = {} if each is None else {"s": each[:, 0], "t": each[:, 1]}
+            added = {} if each is None else {name: each[:, k] for pair in WRITTEN_UV for k, name in enumerate(pair)}
             elements[k] = _changed(plyfile, element, [n for pair in VERTEX_UV for n in pair], added)
         elif element.name == "face":
             added = {} if each is not None else {WEDGE_UV: _wedges(mesh, uv)}
