@@ -359,8 +359,11 @@ def test_ply_to_ply_per_vertex(tmp_path, stored, make, had):
     written = (tmp_path / "b.ply").read_bytes()
     check_rest_kept(data, written)
     header = written[:written.index(b"end_header")]
-    assert b"property double s\nproperty double t\n" in header
-    assert b"texcoord" not in header and b"texture_u" not in header
+    for name in (b"s", b"t", b"texture_u", b"texture_v"):  # MeshLab reads texture_u, others s
+        assert header.count(b"property double " + name + b"\n") == header.count(b" " + name + b"\n") == 1
+    assert b"texcoord" not in header
+    stored = plyfile.PlyData.read(io.BytesIO(written))["vertex"]
+    assert np.array_equal(stored["s"], stored["texture_u"]) and np.array_equal(stored["t"], stored["texture_v"])
     again = read_mesh(tmp_path / "b.ply")
     assert same_mesh(again.mesh, source.mesh)
     np.testing.assert_array_equal(again.corner_uv, uv)
@@ -612,6 +615,16 @@ def test_missing_libraries_are_named(tmp_path, monkeypatch, library, suffix):
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(MissingDependencyError, match=re.escape('pip install "conformal-uv[cli]"')):
         read_mesh(path)
+
+
+@pytest.mark.parametrize("protected", ["a.obj", ""])
+def test_write_protection_is_honoured(tmp_path, monkeypatch, protected):
+    """os.replace would go over a write-protected file without a word."""
+    path = saved(tmp_path, "a.obj", b"old")
+    monkeypatch.setattr(os, "access", lambda p, mode: Path(p) != Path(os.path.realpath(tmp_path)) / protected)
+    with pytest.raises(FileFormatError, match="write-protected"):
+        write_mesh(path, MeshFile(Path("x"), triangles()), corner_uv=per_vertex(triangles()))
+    assert path.read_bytes() == b"old"
 
 
 # --- replacing files
