@@ -25,6 +25,8 @@ def disk_map(
     boundary_vertex: int | None = None,
     tolerance: float = 1e-10,
     max_iterations: int = 50,
+    laplacian: str = "auto",
+    repair: str = "auto",
     backend: str = "auto",
     callback: Callback | None = None,
 ) -> DiskMap:
@@ -57,6 +59,14 @@ def disk_map(
     max_iterations : int
         Most iterations of "newton" and "augmented-lagrangian"; a result that stopped there has
         ``converged == False`` and a warning is logged.
+    laplacian : {"auto", "cotan", "intrinsic-delaunay"}
+        "cotan": the cotangent weights of the triangles as they are. "intrinsic-delaunay": those of the intrinsic
+        Delaunay triangulation of the same surface, never negative, on mollified lengths where faces have no area.
+        "auto" uses the latter when an interior edge has a negative weight or a face no area, except with the
+        Dirichlet objective, which is the report's problem on the triangles as they are.
+    repair : {"auto", "never"}
+        Where triangles came out folded, "auto" restores an embedding by positive weights around them; see
+        `DiskMap.repair` for what it cost. "never" leaves them; so does the augmented Lagrangian always.
     backend : {"auto", "cholmod", "superlu"}
         Factorization; "auto" obeys the environment variable CONFORMAL_UV_BACKEND.
     callback : callable, optional
@@ -77,7 +87,7 @@ def disk_map(
     CancelledError
         The callback returned False.
     """
-    return DiskMapper(V, F, backend=backend, callback=callback).map(
+    return DiskMapper(V, F, laplacian=laplacian, backend=backend, callback=callback).map(
         method=method,
         objective=objective,
         pins=pins,
@@ -86,5 +96,6 @@ def disk_map(
         boundary_vertex=boundary_vertex,
         tolerance=tolerance,
         max_iterations=max_iterations,
+        repair=repair,
         callback=callback,
     )

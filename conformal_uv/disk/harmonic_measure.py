@@ -17,7 +17,7 @@ from ..mesh.subdivide import split_edges
 from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
 from ..operators.dirichlet import DirichletProblem
-from ..operators.laplacian import cotangent_weights
+from ..operators.edge_laplacian import edge_laplacian
 
 __all__ = ["CentredMeasure", "angles_of_measure", "centred_measure"]
 
@@ -65,9 +65,8 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
         return CentredMeasure(centre, measure, theta)
     V, corners = split_edges(surface.V, surface.corners, surface.edges, chords)
     edges, geometry = half_edges(corners, len(V)), triangle_geometry(V, corners)
-    refined = DirichletProblem(
-        edges, cotangent_weights(edges, geometry), loop, len(V), backend=problem.backend
-    )
+    laplacian = edge_laplacian(corners, edges, geometry, len(V), problem.laplacian.kind)
+    refined = DirichletProblem(laplacian, loop, len(V), backend=problem.backend)
     pole = centre if centre is not None else torsion_centre(lumped_areas(geometry, corners, len(V)), refined)
     fine = refined.harmonic_measure(pole)
     return CentredMeasure(centre, fine if measure is None else measure, angles_of_measure(fine, lengths))

@@ -1,4 +1,4 @@
-"""A surface factorized once, to be mapped to the disk again and again."""
+"""A surface checked and factorized once, to be mapped to the disk again and again."""
 
 from __future__ import annotations
 
@@ -8,15 +8,17 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import OptionError
 from ..mesh.surface import Surface
+from ..operators.cholesky import choose_backend
 from ..operators.dirichlet import DirichletProblem
-from ..operators.laplacian import cotangent_weights
-from ..operators.wirtinger import conformal_energy, planar_sides, signed_double_areas
+from ..operators.edge_laplacian import LAPLACIANS, edge_laplacian
 from ..progress import Callback, Progress
 from .harmonic_measure import CentredMeasure, centred_measure
 from .options import DiskOptions
 from .placement import place_center, place_pins
-from .result import DiskMap
+from .repair import repaired
+from .result import DiskMap, disk_map_result
 from .solution import Solution, solve_augmented_lagrangian, solve_linear, solve_newton
 
 __all__ = ["DiskMapper"]
@@ -25,11 +27,11 @@ log = logging.getLogger(__name__)
 
 
 class DiskMapper:
-    """A mesh checked and factorized once, to be mapped again with other options.
+    """A mesh checked once and factorized at its first map, to be mapped again with other options.
 
     Parameters
     ----------
-    V, F, backend, callback
+    V, F, laplacian, backend, callback
         As in `disk_map`, with the same errors.
 
     Attributes
@@ -40,23 +42,23 @@ class DiskMapper:
     """
 
     def __init__(
-        self, V: ArrayLike, F: ArrayLike, *, backend: str = "auto", callback: Callback | None = None
+        self,
+        V: ArrayLike,
+        F: ArrayLike,
+        *,
+        laplacian: str = "auto",
+        backend: str = "auto",
+        callback: Callback | None = None,
     ) -> None:
-        progress = Progress(callback)
-        progress("checks", 0.0)
+        if laplacian not in LAPLACIANS:
+            raise OptionError(f"laplacian is {laplacian!r}; choose {', '.join(LAPLACIANS)}.")
+        self.backend = choose_backend(backend)
+        self._laplacian = laplacian
+        Progress(callback)("checks", 0.0)
         self.surface = Surface.from_arrays(V, F)
         self.boundary = self.surface.require_disk()
-        weights = cotangent_weights(self.surface.edges, self.surface.geometry)
-        self._problem = DirichletProblem(
-            self.surface.edges, weights, self.boundary, self.surface.n, backend=backend, progress=progress
-        )
-        self._measure: CentredMeasure | None = None
+        self._factorized: dict[str, tuple[DirichletProblem, CentredMeasure]] = {}
         self._solved: tuple[tuple[object, ...], Solution] | None = None
-
-    @property
-    def backend(self) -> str:
-        """Library of the factorization."""
-        return self._problem.backend
 
     def map(
         self,
@@ -69,6 +71,7 @@ class DiskMapper:
         boundary_vertex: int | None = None,
         tolerance: float = 1e-10,
         max_iterations: int = 50,
+        repair: str = "auto",
         callback: Callback | None = None,
     ) -> DiskMap:
         """The map with the given options; see `disk_map`.
@@ -86,6 +89,7 @@ class DiskMapper:
             boundary_vertex=boundary_vertex,
             tolerance=tolerance,
             max_iterations=max_iterations,
+            repair=repair,
         )
         progress = Progress(callback)
         if self._solved is None or self._solved[0] != options.solution_key:
@@ -94,50 +98,48 @@ class DiskMapper:
         if not solution.converged:
             log.warning("%s stopped before its tolerance, after %d rows", method, len(solution.history))
         progress("placement", 0.0)
-        result = self._placed(solution, options)
+        z, center = self._placed(solution, options)
+        folded = z
+        if options.repair == "auto" and options.method != "augmented-lagrangian":
+            z = repaired(self.surface, z, self.boundary, progress)
+        result = disk_map_result(self.surface, solution, options, z, folded, center, self.backend)
         progress("placement", 1.0)
         return result
 
     def _solve(self, options: DiskOptions, progress: Progress) -> Solution:
         if options.method == "augmented-lagrangian":
             return solve_augmented_lagrangian(self.surface, self.boundary, options, self.backend, progress)
-        progress("linear", 0.0)
-        if self._measure is None:
-            self._measure = centred_measure(self.surface, self._problem)
+        problem, measure = self._problem(options, progress)
         if options.method == "linear":
-            return solve_linear(self._problem, self._measure)
-        return solve_newton(self.surface, self._problem, self._measure, options, progress)
+            return solve_linear(problem, measure)
+        return solve_newton(self.surface, problem, measure, options, progress)
 
-    def _placed(self, solution: Solution, options: DiskOptions) -> DiskMap:
+    def _problem(self, options: DiskOptions, progress: Progress) -> tuple[DirichletProblem, CentredMeasure]:
+        """The factorization and the harmonic measure that the options need, made at the first call.
+
+        The Dirichlet objective is the report's problem, stated with the mesh's own cotangents; "auto" keeps them.
+        """
+        kind = self._laplacian
+        if kind == "auto" and options.objective == "dirichlet" and not len(self.surface.degenerate):
+            kind = "cotan"
+        if kind not in self._factorized:
+            surface = self.surface
+            progress("assembly", 0.0)
+            laplacian = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, kind)
+            problem = DirichletProblem(
+                laplacian, self.boundary, surface.n, backend=self.backend, progress=progress
+            )
+            progress("linear", 0.0)
+            self._factorized[kind] = problem, centred_measure(surface, problem)
+        return self._factorized[kind]
+
+    def _placed(self, solution: Solution, options: DiskOptions) -> tuple[NDArray[np.complex128], int | None]:
+        """Positions after the Moebius map that the options ask for, and the vertex at 0."""
+        if solution.problem is None or options.constrained_pins is not None:
+            return solution.z, None
         corners = self.surface.corners
+        if options.pins is not None:
+            return place_pins(solution.problem, corners, solution.z, options.pins), None
         center = solution.center if options.center is None else options.center
-        if solution.fixed:
-            z = solution.z
-        elif options.pins is not None:
-            z, center = place_pins(self._problem, corners, solution.z, options.pins), None
-        else:
-            first = int(self.boundary[0]) if options.boundary_vertex is None else options.boundary_vertex
-            z = place_center(self._problem, corners, solution.z, center, first)
-        return self._result(z, center, solution, options)
-
-    def _result(
-        self, z: NDArray[np.complex128], center: int | None, solution: Solution, options: DiskOptions
-    ) -> DiskMap:
-        sides = planar_sides(z, self.surface.corners)
-        signed = signed_double_areas(sides)
-        energy = conformal_energy(self.surface.geometry, sides)
-        return DiskMap(
-            uv=z.copy().view(np.float64).reshape(-1, 2),
-            boundary=self.boundary,
-            dirichlet_energy=energy + 0.5 * float(signed.sum()),
-            conformal_energy=energy,
-            flipped=np.flatnonzero(signed <= 0.0),
-            converged=solution.converged,
-            history=solution.history,
-            method=options.method,
-            objective=options.objective,
-            center=center,
-            pins=options.pins,
-            backend=self.backend,
-            surface=self.surface,
-        )
+        first = int(self.boundary[0]) if options.boundary_vertex is None else options.boundary_vertex
+        return place_center(solution.problem, corners, solution.z, center, first), center

@@ -12,7 +12,7 @@ from ..operators.dirichlet import DirichletProblem
 from ..progress import Progress
 from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge
-from .preconditioner import FourierPreconditioner
+from .tangent import Tangent
 
 __all__ = ["NewtonResult", "NewtonStep", "minimise_boundary_energy"]
 
@@ -20,7 +20,8 @@ Real = NDArray[np.float64]
 log = logging.getLogger(__name__)
 
 GAP_KEPT = 0.1  # of the angle between two neighbours, what a step leaves at the least
-SHORTEST_STEP = 1e-6  # of a Newton direction, below which the order of the boundary blocks the way
+SHORTEST_STEP = 0.05  # of a Newton direction; neighbours that allow no more are linked
+SMALLEST_GAP = 1e-12  # radians; below it neighbours are linked from the start
 SUFFICIENT_DECREASE = 1e-4  # Armijo's constant
 MOST_CG_STEPS = 200  # for one Newton step
 
@@ -66,27 +67,41 @@ def minimise_boundary_energy(
 ) -> NewtonResult:
     """Minimise the energy over the boundary angles under the gauge.
 
-    The energy never rises and the order of the boundary is never broken. The iteration ends when the norm of the
-    projected gradient is at most `tolerance`, when no step lowers the energy any more, or after `max_iterations`.
+    The energy never rises and the order of the boundary is never broken: neighbours that want to change places are
+    linked, and move together from then on unless the energy would fall by parting them. The iteration ends when the
+    norm of the gradient, projected onto what gauge and links leave free, is at most `tolerance`, when no step lowers
+    the energy any more, or after `max_iterations`.
 
     Parameters
     ----------
     theta : (nb,) float64
-        Start, strictly increasing within one turn.
+        Start, strictly increasing within one turn, but for neighbours too close for doubles.
     """
     history: list[NewtonStep] = []
     energy = BoundaryEnergy(problem, gauge.restore(theta), minus_area=minus_area)
+    links = _gaps(energy.theta) < SMALLEST_GAP
+    released = np.zeros_like(links)
     first = None
     for iteration in range(max_iterations + 1):
-        tangent = _Tangent(gauge, energy.theta)
-        gradient = tangent.project(energy.gradient)
-        norm = float(np.linalg.norm(gradient))
+        tangent = Tangent(gauge, energy.theta, links)
+        norm = float(np.linalg.norm(tangent.project(energy.gradient)))
+        if norm <= tolerance:
+            parting = links & ~released & (tangent.pull_of_links(energy.gradient) < -tolerance)
+            parting &= _gaps(energy.theta) >= SMALLEST_GAP
+            if parting.any():  # each link is let go at most once, so that this ends
+                links, released = links & ~parting, released | parting
+                tangent = Tangent(gauge, energy.theta, links)
+                norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         first = first or norm
         progress("newton", _fraction(norm, first, tolerance))
         if norm <= tolerance or iteration == max_iterations:
             break
-        direction, cg_steps = _newton_direction(energy, tangent, gradient, tolerance)
-        found = _line_search(energy, gauge, direction, float(gradient @ direction))
+        direction, cg_steps = _newton_direction(energy, tangent, tangent.project(energy.gradient), tolerance)
+        blocking = _blocking(energy.theta, direction)
+        if blocking.any() and (links | blocking).sum() <= len(links) - 4:
+            links = links | blocking
+            continue
+        found = _line_search(energy, gauge, tangent, direction)
         if found is None:
             log.debug("no descent left at projected gradient %.3g", norm)
             break
@@ -97,28 +112,8 @@ def minimise_boundary_energy(
     return NewtonResult(energy, tuple(history), norm <= tolerance)
 
 
-class _Tangent:
-    """The directions that keep the gauge at one vector of angles."""
-
-    def __init__(self, gauge: Gauge, theta: Real) -> None:
-        self._basis, _ = np.linalg.qr(gauge.normals(theta))
-        self._inverse = FourierPreconditioner(len(theta))
-        self._image = np.column_stack([self._inverse(column) for column in self._basis.T])
-        self._gram = self._basis.T @ self._image
-
-    def project(self, direction: Real) -> Real:
-        """Orthogonal projection."""
-        return direction - self._basis @ (self._basis.T @ direction)
-
-    def precondition(self, residual: Real) -> Real:
-        """The tangent direction d that minimises 1/2 d' M d - residual' d, M the preconditioner."""
-        free = self._inverse(residual)
-        held = free - self._image @ np.linalg.solve(self._gram, self._basis.T @ free)
-        return self.project(held)  # once more, against rounding
-
-
 def _newton_direction(
-    energy: BoundaryEnergy, tangent: _Tangent, gradient: Real, tolerance: float
+    energy: BoundaryEnergy, tangent: Tangent, gradient: Real, tolerance: float
 ) -> tuple[Real, int]:
     """Solve ``P H P d = -g`` by preconditioned conjugate gradients, stopped early (Steihaug 1983)."""
     norm = float(np.linalg.norm(gradient))
@@ -144,38 +139,48 @@ def _newton_direction(
 
 
 def _line_search(
-    energy: BoundaryEnergy, gauge: Gauge, direction: Real, slope: float
+    energy: BoundaryEnergy, gauge: Gauge, tangent: Tangent, direction: Real
 ) -> tuple[float, BoundaryEnergy] | None:
     """Halve the step from the longest that keeps the order until the energy falls enough.
 
     Below the resolution of the energy in doubles, a step counts when it lowers the projected gradient.
     """
-    length = min(1.0, _longest_step(energy.theta, direction))
-    if length < SHORTEST_STEP:  # two neighbours on the boundary want to change places
-        return None
+    slope = float(energy.gradient @ direction)
+    norm = np.linalg.norm(tangent.project(energy.gradient))
     noise = 64.0 * np.finfo(np.float64).eps * (abs(energy.value) + np.pi)
-    norm = np.linalg.norm(_Tangent(gauge, energy.theta).project(energy.gradient))
+    length = min(1.0, float(_room(energy.theta, direction).min()))
     for _ in range(30):
         theta = gauge.restore(energy.theta + length * direction)
         trial = BoundaryEnergy(energy.problem, theta, minus_area=energy.minus_area)
         change = trial.value - energy.value
         if change <= SUFFICIENT_DECREASE * length * slope and change < -noise:
             return length, trial
-        if abs(change) <= noise and np.linalg.norm(_Tangent(gauge, theta).project(trial.gradient)) < norm:
-            return length, trial
+        if abs(change) <= noise:
+            there = Tangent(gauge, theta, tangent.links)
+            if np.linalg.norm(there.project(trial.gradient)) < norm:
+                return length, trial
         length *= 0.5
     return None
 
 
-def _longest_step(theta: Real, direction: Real) -> float:
-    """The step along which every gap between neighbours keeps GAP_KEPT of its angle."""
+def _gaps(theta: Real) -> Real:
+    """Angle from each vertex to the next, (nb,)."""
     gap = np.roll(theta, -1) - theta
     gap[-1] += 2.0 * np.pi
+    return gap
+
+
+def _room(theta: Real, direction: Real) -> Real:
+    """For every gap, the step along the direction that leaves GAP_KEPT of it, (nb,)."""
     closing = direction - np.roll(direction, -1)
-    shrinking = closing > 0
-    if not shrinking.any():
-        return np.inf
-    return float(((1.0 - GAP_KEPT) * gap[shrinking] / closing[shrinking]).min())
+    room = np.full(len(theta), np.inf)
+    np.divide((1.0 - GAP_KEPT) * _gaps(theta), closing, out=room, where=closing > 1e-14 * np.abs(direction).max())
+    return room
+
+
+def _blocking(theta: Real, direction: Real) -> NDArray[np.bool_]:
+    """Gaps that would stop the step almost at once."""
+    return _room(theta, direction) < SHORTEST_STEP
 
 
 def _fraction(norm: float, first: float, tolerance: float) -> float:

@@ -23,6 +23,7 @@ CHOICES = {
     "method": ("linear", "newton", "augmented-lagrangian"),
     "objective": ("conformal", "dirichlet"),
     "pin_mode": ("moebius", "constraint"),
+    "repair": ("auto", "never"),
 }
 
 
@@ -38,6 +39,7 @@ class DiskOptions:
     boundary_vertex: int | None
     tolerance: float
     max_iterations: int
+    repair: str
 
     @property
     def constrained_pins(self) -> tuple[int, int, int] | None:
@@ -63,6 +65,7 @@ class DiskOptions:
         boundary_vertex: int | None,
         tolerance: float,
         max_iterations: int,
+        repair: str,
     ) -> DiskOptions:
         """Fill in what was left out.
 
@@ -75,7 +78,8 @@ class DiskOptions:
         report = method == "augmented-lagrangian"
         objective = objective or ("dirichlet" if report else "conformal")
         pin_mode = pin_mode or ("constraint" if report else "moebius")
-        for name, value in (("method", method), ("objective", objective), ("pin_mode", pin_mode)):
+        given = {"method": method, "objective": objective, "pin_mode": pin_mode, "repair": repair}
+        for name, value in given.items():
             if value not in CHOICES[name]:
                 raise OptionError(f"{name} is {value!r}; choose {' or '.join(CHOICES[name])}.")
         if report and pin_mode != "constraint":
@@ -104,6 +108,7 @@ class DiskOptions:
             boundary_vertex,
             float(tolerance),
             int(max_iterations),
+            repair,
         )
 
 

@@ -10,10 +10,17 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..operators.distortion import Distortion, distortion_of
+from ..operators.orientation_sign import orientation_signs
+from ..operators.wirtinger import conformal_energy, planar_sides, signed_double_areas
 from .augmented_lagrangian import AugmentedLagrangianStep
 from .newton import NewtonStep
+from .options import DiskOptions
+from .repair import Repair, flipped_faces, unresolved_faces
+from .solution import Solution
 
-__all__ = ["DiskMap"]
+__all__ = ["DiskMap", "disk_map_result"]
+
+Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,17 +34,25 @@ class DiskMap:
     boundary : (nb,) int64
         The boundary loop, in the direction of the faces.
     dirichlet_energy : float
-        1/2 uv' L uv, L the cotangent Laplacian with weights (cot a + cot b) / 2.
+        1/2 uv' L uv, L the cotangent Laplacian with weights (cot a + cot b) / 2; where faces have no area, the
+        Laplacian that was solved with.
     conformal_energy : float
         Dirichlet energy minus signed area of the image; 0 where all angles are kept.
     flipped : (k,) int64
-        Faces with non-positive signed area in uv.
+        Faces with non-positive signed area in uv, decided exactly.
+    lost_to_double : (k,) int64
+        Those of them whose height is within the rounding of the positions: crowded faces, too small in the disk for
+        doubles to hold.
     converged : bool
         Whether the method reached its tolerance; always true of "linear", which does not iterate.
     history : tuple
         A row for each iteration: NewtonStep or AugmentedLagrangianStep; empty for "linear".
+    repair : Repair or None
+        What restoring folded faces cost; None where nothing was done.
     method, objective : str
         What was solved.
+    laplacian : str
+        "cotan" or "intrinsic-delaunay".
     center : int or None
         The vertex at 0, where there is one.
     pins : tuple of int or None
@@ -51,10 +66,13 @@ class DiskMap:
     dirichlet_energy: float
     conformal_energy: float
     flipped: NDArray[np.int64]
+    lost_to_double: NDArray[np.int64]
     converged: bool
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
+    repair: Repair | None
     method: str
     objective: str
+    laplacian: str
     center: int | None
     pins: tuple[int, int, int] | None
     backend: str
@@ -65,8 +83,71 @@ class DiskMap:
         """Angle error, quasi-conformal ratio and area scale of every face (area in units of V squared)."""
         return distortion_of(self.surface.geometry, self.surface.corners, self.uv, self.surface.unit)
 
+    @cached_property
+    def lost_to_float32(self) -> NDArray[np.int64]:
+        """Faces with no positive area left once the disk is put into the unit square in single precision.
+
+        That is what image textures and modelling programs keep: u, v = 0.5 + 0.5 (x, y) as float32.
+        """
+        stored = (0.5 + 0.5 * self.uv).astype(np.float32).astype(np.float64)
+        return np.flatnonzero(orientation_signs(stored, self.surface.corners) <= 0)
+
     @property
     def gradient_norm(self) -> float | None:
         """Norm of the projected gradient at the end of Newton's method; None for the other methods."""
         last = self.history[-1] if self.history else None
         return last.gradient_norm if isinstance(last, NewtonStep) else None
+
+
+def disk_map_result(
+    surface: Surface,
+    solution: Solution,
+    options: DiskOptions,
+    z: Complex,
+    folded: Complex,
+    center: int | None,
+    backend: str,
+) -> DiskMap:
+    """Measure positions z (n,); `folded` are those before the repair, z itself where nothing was done."""
+    uv = z.copy().view(np.float64).reshape(-1, 2)
+    flipped = flipped_faces(z, surface.corners)
+    sides = planar_sides(z, surface.corners)
+    area = 0.5 * float(signed_double_areas(sides).sum())
+    if len(surface.degenerate) and solution.problem is not None:
+        dirichlet = solution.problem.laplacian.energy(z)
+        conformal = dirichlet - area
+    else:
+        conformal = conformal_energy(surface.geometry, sides)
+        dirichlet = conformal + area
+    return DiskMap(
+        uv=uv,
+        boundary=surface.loops[0],
+        dirichlet_energy=dirichlet,
+        conformal_energy=conformal,
+        flipped=flipped,
+        lost_to_double=unresolved_faces(z, surface.corners, flipped),
+        converged=solution.converged,
+        history=solution.history,
+        repair=None if folded is z else _cost(surface, z, folded, flipped),
+        method=options.method,
+        objective=options.objective,
+        laplacian="cotan" if solution.problem is None else solution.problem.laplacian.kind,
+        center=center,
+        pins=options.pins,
+        backend=backend,
+        surface=surface,
+    )
+
+
+def _cost(surface: Surface, z: Complex, folded: Complex, flipped: NDArray[np.int64]) -> Repair:
+    before, after = (
+        distortion_of(surface.geometry, surface.corners, w.copy().view(np.float64).reshape(-1, 2)).angle_mean
+        for w in (folded, z)
+    )
+    return Repair(
+        flipped_before=len(flipped_faces(folded, surface.corners)),
+        flipped_after=len(flipped),
+        moved_vertices=int(np.count_nonzero(z != folded)),
+        angle_mean_before=before,
+        angle_mean_after=after,
+    )

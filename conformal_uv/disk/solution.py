@@ -7,9 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.manifold import check_areas
 from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
-from ..operators.laplacian import cotangent_weights, laplacian_matrix, uniform_weights
+from ..operators.edge_laplacian import uniform_edges
+from ..operators.laplacian import cotangent_weights, laplacian_matrix
 from ..progress import Progress
 from .augmented_lagrangian import AugmentedLagrangianStep, area_hessian, augmented_lagrangian
 from .centre_cell import release_centre
@@ -27,21 +29,21 @@ Complex = NDArray[np.complex128]
 class Solution(NamedTuple):
     """Positions z (n,) in the unit disk, before they are placed.
 
-    `center` is the vertex that lies at 0, None where none was put there; `fixed` says that pins were constraints,
-    so that the map stays where it is.
+    `center` is the vertex that lies at 0, None where none was put there; `problem` is what was solved, None for the
+    augmented Lagrangian.
     """
 
     z: Complex
     center: int | None
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
     converged: bool
-    fixed: bool = False
+    problem: DirichletProblem | None
 
 
 def solve_linear(problem: DirichletProblem, measure: CentredMeasure) -> Solution:
     """Angles from the harmonic measure, then the harmonic extension."""
     theta = CentreGauge(measure.vertex_measure, measure.theta).restore(measure.theta)
-    return Solution(problem.extend(np.exp(1j * theta)), measure.centre, (), True)
+    return Solution(problem.extend(np.exp(1j * theta)), measure.centre, (), True, problem)
 
 
 def solve_newton(
@@ -71,16 +73,23 @@ def solve_newton(
     z[loop], z[problem.interior] = found.energy.z, found.energy.interior
     if pins is not None:
         z[list(pins)] = CUBE_ROOTS
-        return Solution(z, None, found.history, found.converged, fixed=True)
-    return Solution(z, None if released else measure.centre, found.history, found.converged)
+        return Solution(z, None, found.history, found.converged, problem)
+    return Solution(z, None if released else measure.centre, found.history, found.converged, problem)
 
 
 def solve_augmented_lagrangian(
     surface: Surface, loop: NDArray[np.int64], options: DiskOptions, backend: str, progress: Progress
 ) -> Solution:
-    """The report's algorithm from Tutte's embedding with uniform weights and an equally spaced boundary."""
+    """The report's algorithm from Tutte's embedding with uniform weights and an equally spaced boundary.
+
+    Raises
+    ------
+    DegenerateFaceError
+        Faces without area have no cotangents.
+    """
+    check_areas(surface.geometry)
     edges, n = surface.edges, surface.n
-    tutte = DirichletProblem(edges, uniform_weights(edges), loop, n, backend=backend)
+    tutte = DirichletProblem(uniform_edges(edges), loop, n, backend=backend)
     start = tutte.extend(np.exp(2j * np.pi / len(loop) * np.arange(len(loop))))
     found = augmented_lagrangian(
         laplacian_matrix(edges, 2.0 * cotangent_weights(edges, surface.geometry), n),
@@ -93,7 +102,7 @@ def solve_augmented_lagrangian(
     )
     z = found.uv[:, 0] + 1j * found.uv[:, 1]
     z[loop] /= np.abs(z[loop])  # the constraints hold to 1e-8, the circle is to be met
-    return Solution(z, None, found.history, found.converged, fixed=True)
+    return Solution(z, None, found.history, found.converged, None)
 
 
 def _angles(zb: Complex) -> NDArray[np.float64]:

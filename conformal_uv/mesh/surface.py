@@ -13,10 +13,10 @@ from .geometry import TriangleGeometry, triangle_geometry
 from .halfedges import HalfEdges, half_edges
 from .loops import boundary_loops
 from .manifold import (
-    check_areas,
     check_edges,
     check_fans,
     check_orientation,
+    degenerate_faces,
     face_components,
     is_face_connected,
 )
@@ -26,7 +26,7 @@ __all__ = ["Surface"]
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """An oriented 2-manifold triangle mesh without degenerate faces, every vertex used.
+    """An oriented 2-manifold triangle mesh, every vertex used.
 
     Attributes
     ----------
@@ -40,6 +40,8 @@ class Surface:
     loops : list of (k,) int64
         Boundary loops in the direction of the faces; the first starts at the first boundary half-edge met when
         faces are read in order.
+    degenerate : (k,) int64
+        Faces whose area is lost to rounding.
     pieces : int
         Number of connected components.
     unit : float
@@ -51,6 +53,7 @@ class Surface:
     edges: HalfEdges
     geometry: TriangleGeometry
     loops: list[NDArray[np.int64]]
+    degenerate: NDArray[np.int64]
     pieces: int
     unit: float
 
@@ -87,8 +90,7 @@ class Surface:
             pieces, _ = face_components(corners, n)
         vertices, unit = _scaled(vertices)
         geometry = triangle_geometry(vertices, corners)
-        check_areas(geometry)
-        return cls(vertices, corners, edges, geometry, loops, pieces, unit)
+        return cls(vertices, corners, edges, geometry, loops, degenerate_faces(geometry), pieces, unit)
 
     @property
     def n(self) -> int:

@@ -6,22 +6,20 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from ..mesh.halfedges import HalfEdges
 from ..progress import Progress
 from .cholesky import Factorization, LowerTriangle, choose_backend, factorize
+from .edge_laplacian import EdgeLaplacian
 
 __all__ = ["DirichletProblem"]
 
 
 class DirichletProblem:
-    """``Lii u_i = -Lib u_b`` for the Laplacian with given edge weights; i interior, b boundary in its order.
+    """``Lii u_i = -Lib u_b`` for a Laplacian of weighted edges; i interior, b boundary in its order.
 
     Parameters
     ----------
-    edges : HalfEdges
-        Its edge list; the order of the edges makes the interior block without another sort.
-    weights : (e,) float64
-        Edge weights; Lii must come out positive definite.
+    laplacian : EdgeLaplacian
+        Lii must come out positive definite. The order of its edges makes the interior block without another sort.
     boundary : (nb,) integers
         Vertices with given values.
     n : int
@@ -37,8 +35,7 @@ class DirichletProblem:
 
     def __init__(
         self,
-        edges: HalfEdges,
-        weights: NDArray[np.float64],
+        laplacian: EdgeLaplacian,
         boundary: NDArray[np.int64],
         n: int,
         *,
@@ -46,7 +43,7 @@ class DirichletProblem:
         progress: Progress | None = None,
     ) -> None:
         progress = progress or Progress()
-        progress("assembly", 0.0)
+        self.laplacian = laplacian
         self.n = n
         self.boundary = boundary
         inside = np.ones(n, dtype=bool)
@@ -55,21 +52,15 @@ class DirichletProblem:
         number = np.empty(n, dtype=np.int32)  # place within the interior or within the boundary
         number[self.interior] = np.arange(len(self.interior), dtype=np.int32)
         number[boundary] = np.arange(len(boundary), dtype=np.int32)
-        self._blocks(edges, weights, inside, number)
+        self._blocks(inside, number)
         self.backend = choose_backend(backend)
         self._factor: Factorization | None = None
         if len(self.interior):
-            self._factor = factorize(self._interior_block(edges, weights, inside, number), backend, progress)
+            self._factor = factorize(self._interior_block(inside, number), backend, progress)
 
-    def _blocks(
-        self,
-        edges: HalfEdges,
-        weights: NDArray[np.float64],
-        inside: NDArray[np.bool_],
-        number: NDArray[np.int32],
-    ) -> None:
+    def _blocks(self, inside: NDArray[np.bool_], number: NDArray[np.int32]) -> None:
         """Lib and Lbb, a few entries for each boundary vertex."""
-        lo, hi = edges.lo, edges.hi
+        lo, hi, weights = self.laplacian.lo, self.laplacian.hi, self.laplacian.weights
         self._degree = np.bincount(lo, weights, self.n) + np.bincount(hi, weights, self.n)
         touching = np.flatnonzero(~(inside[lo] & inside[hi]))
         i, j, w = lo[touching], hi[touching], weights[touching]
@@ -86,16 +77,11 @@ class DirichletProblem:
             (values, (np.concatenate((i, j, d)), np.concatenate((j, i, d)))), shape=(nb, nb)
         )
 
-    def _interior_block(
-        self,
-        edges: HalfEdges,
-        weights: NDArray[np.float64],
-        inside: NDArray[np.bool_],
-        number: NDArray[np.int32],
-    ) -> LowerTriangle:
+    def _interior_block(self, inside: NDArray[np.bool_], number: NDArray[np.int32]) -> LowerTriangle:
         """Lower triangle of Lii; edges sorted by (lo, hi) already stand in its column order."""
-        both = np.flatnonzero(inside[edges.lo] & inside[edges.hi])
-        column, row = number[edges.lo[both]], number[edges.hi[both]]
+        lo, hi, weights = self.laplacian.lo, self.laplacian.hi, self.laplacian.weights
+        both = np.flatnonzero(inside[lo] & inside[hi])
+        column, row = number[lo[both]], number[hi[both]]
         ni = len(self.interior)
         indptr = np.zeros(ni + 1, dtype=np.int64)
         np.cumsum(np.bincount(column, minlength=ni) + 1, out=indptr[1:])

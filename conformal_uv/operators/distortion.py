@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import MeshError, NonFiniteError, listed
 from ..mesh.arrays import face_array, vertex_array
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
-from ..mesh.manifold import check_areas
 from .wirtinger import planar_sides, signed_double_areas, unfolded_sides, wirtinger
 
 __all__ = ["Distortion", "distortion", "distortion_of"]
@@ -26,9 +25,9 @@ class Distortion:
     angle_error : (m, 3) float64
         ``|angle in the image - angle on the surface|`` at each corner, degrees.
     quasi_conformal : (m,) float64
-        Larger over smaller singular value, at least 1; infinite where the image of a face has no area.
+        Larger over smaller singular value, at least 1; infinite where a face or its image has no area.
     area_scale : (m,) float64
-        Area of the image over area of the face, not negative.
+        Area of the image over area of the face, not negative; infinite where the face has none.
     flipped : (k,) int64
         Faces whose image has non-positive signed area.
     """
@@ -68,8 +67,8 @@ def distortion(V: ArrayLike, F: ArrayLike, image: ArrayLike) -> Distortion:
     Raises
     ------
     MeshError
-        The arrays are not a mesh or the image has another number of vertices; DegenerateFaceError on faces of
-        the surface without area; NonFiniteError on positions that are NaN or infinite.
+        The arrays are not a mesh or the image has another number of vertices; NonFiniteError on positions that are
+        NaN or infinite.
     """
     vertices = vertex_array(V)
     corners = face_array(F, len(vertices))
@@ -81,9 +80,7 @@ def distortion(V: ArrayLike, F: ArrayLike, image: ArrayLike) -> Distortion:
     bad = np.flatnonzero(~np.isfinite(positions).all(axis=1))
     if len(bad):
         raise NonFiniteError(f"The image of {len(bad)} vertices is NaN or infinite: vertices {listed(bad)}.", bad)
-    geometry = triangle_geometry(vertices, corners)
-    check_areas(geometry)
-    return distortion_of(geometry, corners, positions)
+    return distortion_of(triangle_geometry(vertices, corners), corners, positions)
 
 
 def distortion_of(
@@ -95,24 +92,30 @@ def distortion_of(
         sides = planar_sides(np.ascontiguousarray(image).view(np.complex128).reshape(-1), corners)
         signed = signed_double_areas(sides)
     else:
-        with np.errstate(divide="ignore", invalid="ignore"):
-            first, second = unfolded_sides(shape)
-        second = np.where(first == 0, np.sqrt(shape.squared_lengths[2]), second)  # corners 0 and 1 coincide
+        first, second = unfolded_sides(shape)
         signed = np.sign(_outward(image, corners)) * shape.double_area
         sides = first, np.where(signed < 0, second.conj(), second)
-    fz, fzbar = wirtinger(unfolded_sides(geometry), sides, geometry.double_area)
+    has_area = geometry.double_area > 0
+    fz, fzbar = wirtinger(unfolded_sides(geometry), sides, np.where(has_area, geometry.double_area, 1.0))
     plus, minus = np.abs(fz), np.abs(fzbar)
     small = np.abs(plus - minus)
-    ratio = np.full(len(plus), np.inf)
-    np.divide(plus + minus, small, out=ratio, where=small > 0)
     angle = np.arctan2(geometry.double_area, geometry.dot)
     angle -= np.arctan2(shape.double_area, shape.dot)
     return Distortion(
         angle_error=np.degrees(np.abs(angle, out=angle), out=angle).T,
-        quasi_conformal=ratio,
-        area_scale=shape.double_area / geometry.double_area / unit / unit,
+        quasi_conformal=_ratio(plus + minus, small, has_area & (small > 0)),
+        area_scale=_ratio(shape.double_area, geometry.double_area * unit * unit, has_area),
         flipped=np.flatnonzero(signed <= 0),
     )
+
+
+def _ratio(
+    over: NDArray[np.float64], under: NDArray[np.float64], where: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """Quotient, infinite elsewhere."""
+    out = np.full(len(over), np.inf)
+    np.divide(over, under, out=out, where=where)
+    return out
 
 
 def _outward(image: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.float64]:

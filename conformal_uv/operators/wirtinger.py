@@ -32,9 +32,14 @@ def planar_sides(z: Complex, corners: NDArray[np.int32]) -> Sides:
 
 
 def unfolded_sides(geometry: TriangleGeometry) -> Sides:
-    """The same of triangles in space, each laid into its own plane with corner 1 on the positive axis."""
-    length = np.sqrt(geometry.dot[0] + geometry.dot[1])
-    return length.astype(np.complex128), (geometry.dot[0] + 1j * geometry.double_area) / length
+    """The same of triangles in space, each laid into its own plane with corner 1 on the positive axis.
+
+    Where corners 0 and 1 coincide the other edge takes the axis.
+    """
+    length = np.sqrt(np.maximum(geometry.dot[0] + geometry.dot[1], 0.0))
+    second = np.sqrt(np.maximum(geometry.dot[0] + geometry.dot[2], 0.0)).astype(np.complex128)
+    np.divide(geometry.dot[0] + 1j * geometry.double_area, length, out=second, where=length > 0)
+    return length.astype(np.complex128), second
 
 
 def signed_double_areas(sides: Sides) -> NDArray[np.float64]:

@@ -1,0 +1,138 @@
+"""Restoring an embedding where original triangles came out folded.
+
+Around the folds the vertices are placed anew by positive weights (mean value), everything else held where it is.
+Where folds remain the patch grows; when it takes in the whole interior, all weights are positive and the boundary is
+convex, so Tutte's theorem leaves no fold but those that doubles can not resolve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array, diags_array
+from scipy.sparse.linalg import splu
+
+from ..mesh.geometry import TriangleGeometry, triangle_geometry
+from ..mesh.surface import Surface
+from ..operators.laplacian import intrinsic_geometry
+from ..operators.mean_value import mean_value_matrix
+from ..operators.mollification import mollified
+from ..operators.orientation_sign import orientation_signs
+from ..progress import Progress
+
+__all__ = ["Repair", "flipped_faces", "repaired", "unresolved_faces"]
+
+Complex = NDArray[np.complex128]
+
+RESOLUTION = 16.0 * np.finfo(np.float64).eps  # of a position in the disk, with a few operations behind it
+
+
+@dataclass(frozen=True)
+class Repair:
+    """What was done to the folds and what it cost.
+
+    Attributes
+    ----------
+    flipped_before, flipped_after : int
+        Faces with non-positive area, those too small for doubles included.
+    moved_vertices : int
+    angle_mean_before, angle_mean_after : float
+        Mean angle error over all corners, degrees.
+    """
+
+    flipped_before: int
+    flipped_after: int
+    moved_vertices: int
+    angle_mean_before: float
+    angle_mean_after: float
+
+
+def flipped_faces(z: Complex, corners: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Faces with non-positive area, decided exactly."""
+    return np.flatnonzero(orientation_signs(_points(z), corners) <= 0)
+
+
+def unresolved_faces(z: Complex, corners: NDArray[np.int32], faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Those of the faces whose height in the disk is within the rounding of the positions."""
+    shape = triangle_geometry(_points(z), corners[:, faces])
+    longest = np.sqrt(shape.squared_lengths.max(axis=0, initial=0.0))
+    return faces[shape.double_area <= RESOLUTION * np.maximum(longest, RESOLUTION)]
+
+
+def repaired(surface: Surface, z: Complex, boundary: NDArray[np.int64], progress: Progress) -> Complex:
+    """Positions without folds; z itself where it has none.
+
+    Parameters
+    ----------
+    z : (n,) complex128
+        Positions in the unit disk, the boundary on the circle in order.
+    """
+    corners, n = surface.corners, surface.n
+    folds = _folds(z, corners)
+    if not len(folds):
+        return z
+    geometry = _safe_geometry(surface)
+    inside = np.ones(n, dtype=bool)
+    inside[boundary] = False
+    patch = np.zeros(n, dtype=bool)
+    best, start = z, z
+    fewest = len(folds)
+    rings = 1
+    while len(folds) and not patch[inside].all():
+        progress("repair", min(0.99, patch.sum() / max(inside.sum(), 1)))
+        patch |= _ball(corners, folds, rings, n) & inside
+        z = _placed(corners, geometry, start, patch)
+        folds = _folds(z, corners)
+        if len(folds) < fewest:
+            best, fewest = z, len(folds)
+        rings *= 2
+    return best
+
+
+def _folds(z: Complex, corners: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Flipped faces that doubles could hold unfolded."""
+    flipped = flipped_faces(z, corners)
+    return np.setdiff1d(flipped, unresolved_faces(z, corners, flipped), assume_unique=True)
+
+
+def _ball(corners: NDArray[np.int32], faces: NDArray[np.int64], rings: int, n: int) -> NDArray[np.bool_]:
+    """Vertices within so many rings of the faces."""
+    near = np.zeros(n, dtype=bool)
+    near[corners[:, faces]] = True
+    for _ in range(rings):
+        near[corners[:, near[corners].any(axis=0)]] = True
+        if near.all():
+            break
+    return near
+
+
+def _placed(
+    corners: NDArray[np.int32], geometry: TriangleGeometry, z: Complex, patch: NDArray[np.bool_]
+) -> Complex:
+    """z with each vertex of the patch at the weighted mean of its neighbours."""
+    faces = np.flatnonzero(patch[corners].any(axis=0))
+    weights = mean_value_matrix(corners, geometry, len(z), faces)
+    free = np.flatnonzero(patch)
+    rows = weights[free]
+    total = rows.sum(axis=1)
+    rows = diags_array(1.0 / total) @ rows
+    held = z.copy()
+    held[free] = 0.0
+    system = csc_array(diags_array(np.ones(len(free))) - rows[:, free])
+    solver = splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    right = rows @ held
+    out = z.copy()
+    out[free] = solver.solve(np.ascontiguousarray(right.real)) + 1j * solver.solve(np.ascontiguousarray(right.imag))
+    return out
+
+
+def _safe_geometry(surface: Surface) -> TriangleGeometry:
+    if not len(surface.degenerate):
+        return surface.geometry
+    return intrinsic_geometry(mollified(np.sqrt(np.maximum(surface.geometry.squared_lengths, 0.0))))
+
+
+def _points(z: Complex) -> NDArray[np.float64]:
+    return np.ascontiguousarray(z).view(np.float64).reshape(-1, 2)

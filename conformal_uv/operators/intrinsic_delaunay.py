@@ -1,0 +1,163 @@
+"""The intrinsic Delaunay triangulation of a triangle mesh, by edge flips on lengths alone.
+
+A. Bobenko, B. Springborn, "A discrete Laplace-Beltrami operator for simplicial surfaces", 2007: flipping edges with
+cot a + cot b < 0 ends in a triangulation of the same surface on which every cotangent weight is non-negative. Edges
+are flipped in batches, no two of which share a face.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import SolverError
+from ..mesh.geometry import TriangleGeometry
+from .laplacian import intrinsic_geometry
+
+__all__ = ["IntrinsicTriangulation", "intrinsic_delaunay"]
+
+Index = NDArray[np.int32]
+Real = NDArray[np.float64]
+
+EPS = np.finfo(np.float64).eps
+MOST_ROUNDS = 100_000
+
+
+@dataclass(frozen=True, eq=False)
+class IntrinsicTriangulation:
+    """Triangles given by edge lengths; edges are geodesics of the surface, and two may join the same vertices.
+
+    Attributes
+    ----------
+    corners : (3, m) int32
+    lengths : (3, m) float64
+        Of half-edge c, from corner c to corner c + 1.
+    twin : (3 m,) int32
+        As in HalfEdges.
+    flips : int
+        Edges flipped to get here.
+    """
+
+    corners: Index
+    lengths: Real
+    twin: Index
+    flips: int
+
+    @property
+    def geometry(self) -> TriangleGeometry:
+        """Corner products and areas."""
+        return intrinsic_geometry(self.lengths)
+
+
+def intrinsic_delaunay(corners: Index, lengths: Real, twin: Index) -> IntrinsicTriangulation:
+    """Flip edges until all are Delaunay (to rounding); boundary edges stay.
+
+    Parameters
+    ----------
+    corners : (3, m) int32
+    lengths : (3, m) float64
+        Half-edge lengths that satisfy the triangle inequality strictly.
+    twin : (3 m,) int32
+
+    Raises
+    ------
+    SolverError
+        The flips do not end; rounding has the better of them.
+    """
+    work = _Flipper(corners.copy(), lengths.copy(), twin.copy())
+    candidates = np.flatnonzero(twin >= 0).astype(np.int32)
+    candidates = candidates[candidates < twin[candidates]]
+    for _ in range(MOST_ROUNDS):
+        bad, sums = work.not_delaunay(candidates)
+        if not len(bad):
+            return IntrinsicTriangulation(work.corners, work.lengths, work.twin, work.flips)
+        chosen = work.independent(bad, sums)
+        candidates = work.flip(bad[chosen], bad[~chosen])
+    raise SolverError(
+        f"Edge flips did not end after {work.flips}; the mesh has triangles too thin for doubles. "
+        'Use laplacian="cotan", or remove slivers.'
+    )
+
+
+class _Flipper:
+    """The triangulation in work. Half-edge c m + f is that of corner c of face f."""
+
+    def __init__(self, corners: Index, lengths: Real, twin: Index) -> None:
+        self.corners, self.lengths, self.twin = corners, lengths, twin
+        self.m = corners.shape[1]
+        self.flips = 0
+        geometry = intrinsic_geometry(lengths)
+        self._area2 = geometry.double_area
+        self._cot = geometry.dot / geometry.double_area
+        self._moved = np.full(3 * self.m, -1, dtype=np.int32)
+        self._rank = np.empty(self.m, dtype=np.int64)
+
+    def _across(self, h: Index) -> Index:
+        """The half-edge whose corner lies opposite to half-edge h."""
+        return (h + np.int32(2 * self.m)) % np.int32(3 * self.m)
+
+    def not_delaunay(self, h: Index) -> tuple[Index, Real]:
+        """Those of the half-edges whose edge can be flipped and has cot a + cot b < 0, and the sums."""
+        cot = self._cot.reshape(-1)
+        t = self.twin[h]
+        here, there = cot[self._across(h)], cot[self._across(t)]
+        total = here + there
+        tolerance = 8.0 * EPS * (np.abs(here) + np.abs(there) + 1.0)
+        bad = (total < -tolerance) & (h % self.m != t % self.m)
+        return h[bad], total[bad]
+
+    def independent(self, h: Index, sums: Real) -> NDArray[np.bool_]:
+        """A choice of edges no two of which share a face: those that are the worst of both of their faces."""
+        rank = np.empty(len(h), dtype=np.int64)
+        rank[np.argsort(sums, kind="stable")] = np.arange(len(h))
+        f, g = h % self.m, self.twin[h] % self.m
+        self._rank[f] = self._rank[g] = len(h)
+        np.minimum.at(self._rank, f, rank)
+        np.minimum.at(self._rank, g, rank)
+        return (self._rank[f] == rank) & (self._rank[g] == rank)
+
+    def flip(self, h: Index, waiting: Index) -> Index:
+        """Flip independent edges; return the half-edges to look at next, one an edge.
+
+        Faces (a, b, c) and (b, a, d) on edge ab become (d, b, c) and (c, a, d).
+        """
+        m, three = np.int32(self.m), np.int32(3 * self.m)
+        corner, length = self.corners.reshape(-1), self.lengths.reshape(-1)
+        t = self.twin[h]
+        f, g = h % m, t % m
+        bc, ca, ad, db = (h + m) % three, self._across(h), (t + m) % three, self._across(t)
+        a, b, c, d = corner[h], corner[t], corner[ca], corner[db]
+        l_ab, l_bc, l_ca, l_ad, l_db = length[h], length[bc], length[ca], length[ad], length[db]
+        along_c = 0.5 * (l_ab + (l_ca - l_bc) * (l_ca + l_bc) / l_ab)
+        along_d = 0.5 * (l_ab + (l_ad - l_db) * (l_ad + l_db) / l_ab)
+        l_cd = np.hypot(along_c - along_d, (self._area2[f] + self._area2[g]) / l_ab)
+
+        old = np.concatenate((db, bc, ca, ad))
+        new = np.concatenate((f, f + m, g, g + m))
+        outside = self.twin[old]
+        self._moved[old] = new
+        outside = self._followed(outside)
+        waiting = self._followed(waiting)
+        self._moved[old] = -1
+        self.corners[:, f], self.corners[:, g] = (d, b, c), (c, a, d)
+        self.lengths[:, f], self.lengths[:, g] = (l_db, l_bc, l_cd), (l_ca, l_ad, l_cd)
+        self.twin[new] = outside
+        inner = outside >= 0
+        self.twin[outside[inner]] = new[inner]
+        self.twin[f + 2 * m], self.twin[g + 2 * m] = g + 2 * m, f + 2 * m
+
+        touched = np.concatenate((f, g))
+        geometry = intrinsic_geometry(self.lengths[:, touched])
+        self._area2[touched] = geometry.double_area
+        self._cot[:, touched] = geometry.dot / geometry.double_area
+        self.flips += len(h)
+        following = np.concatenate((waiting, new[inner]))
+        following = np.sort(np.minimum(following, self.twin[following]))
+        return following[np.diff(following, prepend=np.int32(-1)) > 0]
+
+    def _followed(self, h: Index) -> Index:
+        """Where half-edges are after the flips at hand; -1 stays -1."""
+        moved = self._moved[h]
+        return np.where((h >= 0) & (moved >= 0), moved, h)
