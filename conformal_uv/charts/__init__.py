@@ -1,0 +1,8 @@
+"""Charts: polygons with seams, holes, cuts and faults made into disks, mapped and packed."""
+
+from .chart import Chart, Unwrapped
+from .placement import Placement
+from .unwrap import unwrap
+from .unwrapper import Unwrapper
+
+__all__ = ["Chart", "Placement", "Unwrapped", "Unwrapper", "unwrap"]

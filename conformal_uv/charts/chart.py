@@ -1,0 +1,110 @@
+"""What is known of a chart after it was mapped, and of all of them together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..disk import DiskMap
+from ..errors import ConformalUVError, listed
+from ..operators import Distortion, distortion
+from .chart_meshes import ChartMesh
+from .placement import Placement
+
+__all__ = ["Chart", "Unwrapped"]
+
+MOST_REASONS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Chart:
+    """A part of the surface with a disk of its own.
+
+    Attributes
+    ----------
+    faces : (q,) int64
+        The caller's polygons.
+    error : ConformalUVError or None
+        Why the chart was not mapped; indices in it are the caller's.
+    map : DiskMap or None
+        In the chart's own vertices; rows of ``map.uv`` beyond ``len(vertices)`` are virtual vertices in the middle
+        of filled holes. Neither turned by `rotation` nor placed.
+    vertices : (n,) int64
+        The caller's vertex of each chart vertex; a vertex on both sides of a cut stands twice.
+    F : (m, 3) int64
+        The chart's own triangles (polygons cut into triangles, holes not filled), in chart vertices.
+    polygon : (m,) int64
+        The caller's polygon of each of these.
+    flipped : (k,) int64
+        The caller's polygons with a triangle whose image has non-positive signed area.
+    notes : list of str
+        What was mended, cut, filled or left unused.
+    placement : Placement
+        Center and scale of the disk in the texture.
+    """
+
+    faces: NDArray[np.int64]
+    error: ConformalUVError | None
+    map: DiskMap | None
+    vertices: NDArray[np.int64]
+    F: NDArray[np.int64]
+    polygon: NDArray[np.int64]
+    flipped: NDArray[np.int64]
+    notes: list[str]
+    placement: Placement
+    mesh: ChartMesh = field(repr=False)
+
+    @property
+    def status(self) -> Literal["mapped", "failed"]:
+        """Whether the chart was mapped."""
+        return "failed" if self.map is None else "mapped"
+
+    @property
+    def scale(self) -> float:
+        """Radius of the chart's disk in the texture."""
+        return self.placement.scale
+
+    @cached_property
+    def distortion(self) -> Distortion | None:
+        """Distortion of the map in the unit disk on the triangles F; None for a chart that failed."""
+        if self.map is None:
+            return None
+        n = len(self.vertices)
+        return distortion(self.mesh.V[:n], self.F, self.map.uv[:n])
+
+
+@dataclass(frozen=True, eq=False)
+class Unwrapped:
+    """Texture coordinates on the caller's own polygons.
+
+    Attributes
+    ----------
+    uv : (k, 2) float64
+        Of every polygon corner, polygon after polygon in the caller's order; 0 where nothing was mapped.
+    chart_of_face : (p,) int64
+        -1 for polygons that were not selected.
+    mapped : (p,) bool
+        Polygons whose corners have coordinates.
+    charts : list of Chart
+        In the order of their first polygons.
+    """
+
+    uv: NDArray[np.float64]
+    chart_of_face: NDArray[np.int64]
+    mapped: NDArray[np.bool_]
+    charts: list[Chart]
+
+    @property
+    def summary(self) -> str:
+        """How many charts were mapped, and why the others were not, in one line."""
+        failed = [(number, chart) for number, chart in enumerate(self.charts) if chart.map is None]
+        done = len(self.charts) - len(failed)
+        text = f"mapped {done} of {len(self.charts)} chart{'s' * (len(self.charts) != 1)}"
+        reasons = [f"chart {number} (faces {listed(chart.faces)}): {chart.error}" for number, chart in failed]
+        if len(reasons) > MOST_REASONS:
+            reasons[MOST_REASONS:] = [f"and {len(failed) - MOST_REASONS} more"]
+        return "; ".join([text, *reasons])

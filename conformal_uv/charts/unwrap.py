@@ -1,0 +1,134 @@
+"""Texture coordinates of a polygon mesh: charts, each mapped conformally to a disk."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from ..progress import Callback
+from .arguments import Polygons
+from .chart import Unwrapped
+from .unwrapper import Unwrapper, Vertices
+
+__all__ = ["unwrap"]
+
+
+def unwrap(
+    V: ArrayLike | None,
+    polygons: Polygons,
+    *,
+    seams: ArrayLike | None = None,
+    selection: ArrayLike | None = None,
+    method: str = "newton",
+    objective: str | None = None,
+    pins: Vertices = None,
+    pin_mode: str | None = None,
+    center: Vertices = None,
+    boundary_vertex: Vertices = None,
+    rotation: float = 0.0,
+    tolerance: float = 1e-10,
+    max_iterations: int = 50,
+    holes: str = "fill",
+    outer_loop: Vertices = None,
+    closed: str = "refuse",
+    nonmanifold: str = "refuse",
+    orientation: str = "refuse",
+    laplacian: str = "auto",
+    repair: str = "auto",
+    backend: str = "auto",
+    place: str = "fit",
+    margin: float = 0.005,
+    callback: Callback | None = None,
+) -> Unwrapped:
+    """Split a polygon mesh into charts and map each conformally onto a disk.
+
+    Charts are the parts of the selected polygons that hang together across edges which are not seams. What is
+    wrong with one chart is that chart's error and leaves the others alone. Polygons are never split between
+    charts; nothing of the mesh is changed. Vertices of no selected polygon do not matter.
+
+    Parameters
+    ----------
+    V : (n, 3) floats
+        Vertex positions; None where `polygons` is a PolygonMesh.
+    polygons : (m, k) integers, a list of vertex lists, or a PolygonMesh
+        Vertices of each polygon in winding order, 0-based, three or more.
+    seams : (s, 2) integers, optional
+        Edges to cut along. Seams that end inside a chart and do not reach its circle are closed again where holes
+        are filled.
+    selection : (p,) bool or polygon indices, optional
+        Polygons to map, by default all.
+    method, objective, pin_mode, tolerance, max_iterations, laplacian, repair, backend
+        As in `disk_map`.
+    pins : vertices or triples of vertices, optional
+        A chart with exactly three of them on its boundary is pinned by them, in the order of its boundary from
+        the one named first; a chart with another number is not pinned and says so in its notes.
+    center, boundary_vertex : vertices, optional
+        Each is used by the chart in whose interior, or on whose boundary, it lies.
+    rotation : float
+        Radians, anticlockwise; every disk is turned by it about its centre at the end.
+    holes : {"fill", "refuse"}
+        What to do with all boundary loops but one: fill them for the solution only, or refuse.
+    outer_loop : vertices, optional
+        Vertices on loops that become circles; by default it is the longest loop of each chart.
+    closed : {"refuse", "cut"}
+        Charts that are closed or have handles: refuse, or cut them open along polygon edges (a shortest path
+        between two far ends of a sphere; a shortened cut graph, Erickson and Whittlesey 2005, where there are
+        handles).
+    nonmanifold : {"refuse", "cut"}
+        Edges of three or more polygons, and vertices where parts touch without sharing an edge: refuse, or cut.
+    orientation : {"refuse", "mend"}
+        Polygons wound against their neighbours: refuse, or turn the smaller part for the solution and cut
+        one-sided charts.
+    place : {"fit", "pack", "disk"}
+        "disk": every chart on the unit disk. "fit" and "pack": in the unit square; one chart fills it, several
+        are packed, their areas in the same proportion as on the surface.
+    margin : float
+        Least distance between disks and to the sides of the square; with very many charts, half of a chart's
+        share of the side if that is less.
+    callback : callable, optional
+        Called as ``callback(stage, fraction)``, the fraction over all charts; the work stops with CancelledError
+        when it returns False.
+
+    Returns
+    -------
+    Unwrapped
+
+    Raises
+    ------
+    MeshError
+        The arrays are not a mesh: shapes, types, indices.
+    OptionError
+        An option that is not taken, a seam that is no edge, a vertex of no selected polygon.
+    MissingDependencyError
+        Several charts are to be packed and rectangle-packer is not installed.
+    CancelledError
+        The callback returned False.
+    """
+    unwrapper = Unwrapper(
+        V,
+        polygons,
+        seams=seams,
+        selection=selection,
+        holes=holes,
+        outer_loop=outer_loop,
+        closed=closed,
+        nonmanifold=nonmanifold,
+        orientation=orientation,
+        laplacian=laplacian,
+        backend=backend,
+        callback=callback,
+    )
+    return unwrapper.unwrap(
+        method=method,
+        objective=objective,
+        pins=pins,
+        pin_mode=pin_mode,
+        center=center,
+        boundary_vertex=boundary_vertex,
+        rotation=rotation,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        repair=repair,
+        place=place,
+        margin=margin,
+        callback=callback,
+    )

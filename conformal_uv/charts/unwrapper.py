@@ -1,0 +1,184 @@
+"""A mesh split into charts once, to be unwrapped again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..disk import DiskMapper
+from ..disk.options import DiskOptions
+from ..errors import OptionError
+from ..progress import Callback
+from .arguments import Polygons, polygon_mesh, seam_pairs, selected_polygons, used_vertices, vertex_list
+from .chart import Chart, Unwrapped
+from .chart_mapper import ChartMapper, ChartSolution, MapOptions
+from .chart_meshes import ChartMesh, chart_meshes
+from .chart_progress import PLACING, SPLITTING, ChartProgress
+from .mending import Mending
+from .placement import Placement, check_place, placements
+from .splitting import split_into_charts
+from .vertex_options import VertexOptions
+
+__all__ = ["Unwrapper"]
+
+Vertices = int | Iterable[Any] | None
+
+
+class Unwrapper:
+    """A mesh split into charts and factorized once.
+
+    Parameters
+    ----------
+    V, polygons, seams, selection, holes, outer_loop, closed, nonmanifold, orientation, laplacian, backend, callback
+        As in `unwrap`, with the same errors. Charts are factorized when they are first mapped.
+    """
+
+    def __init__(
+        self,
+        V: ArrayLike | None,
+        polygons: Polygons,
+        *,
+        seams: ArrayLike | None = None,
+        selection: ArrayLike | None = None,
+        holes: str = "fill",
+        outer_loop: Vertices = None,
+        closed: str = "refuse",
+        nonmanifold: str = "refuse",
+        orientation: str = "refuse",
+        laplacian: str = "auto",
+        backend: str = "auto",
+        callback: Callback | None = None,
+    ) -> None:
+        ChartProgress(callback).report("charts", 0.0)
+        self._sample = DiskMapper(np.eye(3), [[0, 1, 2]], laplacian=laplacian, backend=backend)
+        mesh, finite = polygon_mesh(V, polygons)
+        selected = selected_polygons(selection, mesh)
+        self._corners, self._faces = len(mesh.corners), len(mesh.sizes)
+        self._used = used_vertices(mesh, selected)
+        mending = Mending.checked(
+            self._used,
+            holes=holes,
+            closed=closed,
+            nonmanifold=nonmanifold,
+            orientation=orientation,
+            outer_loop=outer_loop,
+        )
+        split = self._split = split_into_charts(mesh, finite, selected, seam_pairs(seams), mending)
+        self._meshes = chart_meshes(split.mesh, split.surface, split.count)
+        # pass laplacian and repair on: laplacian goes to each DiskMapper here, repair with MapOptions in unwrap
+        self._mappers = [
+            ChartMapper(self._meshes[number], selected, split.faults.get(number), laplacian, backend)
+            for number in range(split.count)
+        ]
+
+    def unwrap(
+        self,
+        *,
+        method: str = "newton",
+        objective: str | None = None,
+        pins: Vertices = None,
+        pin_mode: str | None = None,
+        center: Vertices = None,
+        boundary_vertex: Vertices = None,
+        rotation: float = 0.0,
+        tolerance: float = 1e-10,
+        max_iterations: int = 50,
+        repair: str = "auto",
+        place: str = "fit",
+        margin: float = 0.005,
+        callback: Callback | None = None,
+    ) -> Unwrapped:
+        """Map all charts with the given options; see `unwrap`. Factorizations are used again."""
+        check_place(place, margin)
+        if not np.isfinite(rotation):
+            raise OptionError(f"rotation is {rotation}; pass radians.")
+        options = MapOptions(method, objective, pin_mode, tolerance, max_iterations, repair)
+        self._check(options)
+        vertices = VertexOptions(
+            vertex_list("center", center, self._used),
+            vertex_list("boundary_vertex", boundary_vertex, self._used),
+            vertex_list("pins", pins, self._used),
+        )
+        progress = ChartProgress(callback)
+        progress.report("charts", SPLITTING)
+        progress.weigh(self._meshes.weights())
+        solutions = []
+        for number, mapper in enumerate(self._mappers):
+            progress.start(number)
+            solutions.append(mapper.solve(options, vertices, progress if progress.wanted else None))
+        progress.report("packing", PLACING)
+        result = self._assembled(solutions, place, margin, rotation)
+        progress.report("packing", 1.0)
+        return result
+
+    def _check(self, options: MapOptions) -> None:
+        """Raise OptionError on values that no chart would take, before any chart is mapped."""
+        DiskOptions.checked(
+            self._sample.surface,
+            self._sample.boundary,
+            **options.keywords(),
+            pins=None,
+            center=None,
+            boundary_vertex=None,
+        )
+
+    def _assembled(self, solutions: list[ChartSolution], place: str, margin: float, rotation: float) -> Unwrapped:
+        """Place the disks and gather the corners' coordinates."""
+        mapped = np.array([solution.map is not None for solution in solutions])
+        image_area = np.array([0.5 * np.abs(solution.signed).sum() for solution in solutions])
+        found = iter(placements(place, margin, self._meshes.area[mapped], image_area[mapped]))
+        placed = [next(found) if done else Placement() for done in mapped.tolist()]
+        surface, split = self._split.surface, self._split
+        z: NDArray[np.complex128] = np.zeros(len(surface.vertex_of_site), dtype=np.complex128)
+        for number in np.flatnonzero(mapped).tolist():
+            own = slice(self._meshes.first_vertex[number], self._meshes.first_virtual[number])
+            z[self._meshes.site[own]] = _laid(solutions[number].z, placed[number], rotation)
+        uv = np.zeros((self._corners, 2))
+        uv[split.corner] = z[surface.site[: len(split.corner)]].view(np.float64).reshape(-1, 2)
+        chart_of_face = np.full(self._faces, -1, dtype=np.int64)
+        chart_of_face[split.selected] = surface.chart[: surface.real]
+        done = np.append(mapped, False)[chart_of_face]
+        return Unwrapped(uv, chart_of_face, done, self._charts(solutions, placed))
+
+    def _charts(self, solutions: list[ChartSolution], placed: list[Placement]) -> list[Chart]:
+        split, meshes = self._split, self._meshes
+        faces = split.selected[np.argsort(split.surface.chart[: split.surface.real], kind="stable")]
+        first = np.concatenate(([0], np.cumsum(np.bincount(split.surface.chart[: split.surface.real]))))
+        charts = []
+        for number, solution in enumerate(solutions):
+            mesh = self._mappers[number].mesh
+            polygon = split.selected[meshes.polygon[meshes.first_face[number] : meshes.first_face[number + 1]]]
+            charts.append(
+                Chart(
+                    faces[first[number] : first[number + 1]],
+                    solution.error,
+                    solution.map,
+                    mesh.vertices,
+                    mesh.F,
+                    polygon,
+                    self._flipped(solution, mesh),
+                    split.notes.get(number, []) + solution.notes,
+                    placed[number],
+                    mesh,
+                )
+            )
+        return charts
+
+    def _flipped(self, solution: ChartSolution, mesh: ChartMesh) -> NDArray[np.int64]:
+        """The caller's polygons with an inverted or collapsed triangle among those that were solved on."""
+        if solution.map is None or not len(solution.map.flipped):
+            return np.empty(0, dtype=np.int64)
+        polygon = np.unique(mesh.solved_polygon[solution.map.flipped])
+        return self._split.selected[polygon[polygon < self._split.surface.real]]
+
+
+def _laid(z: NDArray[np.complex128], placement: Placement, rotation: float) -> NDArray[np.complex128]:
+    """Positions in the disk turned and put in their place; untouched where there is nothing to do."""
+    if rotation:
+        z = z * np.exp(1j * rotation)
+    if placement == Placement():
+        return z
+    return complex(*placement.center) + placement.scale * z

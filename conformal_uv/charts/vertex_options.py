@@ -1,0 +1,81 @@
+"""Which of the vertices that a caller names (centers, boundary vertices, pins) a chart can use."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import listed
+
+__all__ = ["ChartOptions", "VertexOptions"]
+
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class ChartOptions:
+    """Options in the chart's own numbers, as DiskMapper.map takes them, and what is to be said about them."""
+
+    center: int | None = None
+    boundary_vertex: int | None = None
+    pins: tuple[int, int, int] | None = None
+    notes: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True, eq=False)
+class VertexOptions:
+    """Vertices in the caller's numbers, of all charts together."""
+
+    center: Ints
+    boundary_vertex: Ints
+    pins: Ints
+
+    def __bool__(self) -> bool:
+        return bool(len(self.center) or len(self.boundary_vertex) or len(self.pins))
+
+    def of_chart(self, vertices: Ints, boundary: Ints) -> ChartOptions:
+        """What a chart uses.
+
+        Parameters
+        ----------
+        vertices : (n,)
+            The caller's vertex of each vertex of the chart that is not virtual.
+        boundary : (nb,)
+            Its loop, in the chart's numbers.
+        """
+        if not self:
+            return ChartOptions()
+        notes: list[str] = []
+        inside = np.ones(len(vertices), dtype=bool)
+        inside[boundary] = False
+        center = self._first("center", self.center, vertices, np.flatnonzero(inside), notes)
+        rim = self._first("boundary_vertex", self.boundary_vertex, vertices, boundary, notes)
+        return ChartOptions(center, rim, self._pins(vertices, boundary, notes), notes)
+
+    def _first(self, name: str, wanted: Ints, vertices: Ints, allowed: Ints, notes: list[str]) -> int | None:
+        """The first wanted vertex among those allowed; a note on those that lie elsewhere in the chart or are more
+        than one."""
+        here = wanted[np.isin(wanted, vertices)]
+        usable = here[np.isin(here, vertices[allowed])]
+        unused = here[~np.isin(here, usable[:1])]
+        if len(unused):
+            where = "interior" if name == "center" else "on the boundary"
+            why = "one is enough" if len(usable) else f"not {where} here"
+            notes.append(f"{name} {listed(unused)} not used: {why}")
+        return int(allowed[vertices[allowed] == usable[0]][0]) if len(usable) else None
+
+    def _pins(self, vertices: Ints, boundary: Ints, notes: list[str]) -> tuple[int, int, int] | None:
+        """Three pins in the order of the loop, beginning with the one that was named first."""
+        on_loop = np.unique(self.pins[np.isin(self.pins, vertices[boundary])])
+        if len(on_loop) != 3:
+            here = np.unique(self.pins[np.isin(self.pins, vertices)])
+            if len(here):
+                notes.append(f"not pinned: of its pins {listed(here)}, {len(on_loop)} are on its boundary, not three")
+            return None
+        place = [int(np.flatnonzero(vertices[boundary] == pin)[0]) for pin in on_loop]
+        named = [int(np.flatnonzero(self.pins == pin)[0]) for pin in on_loop]
+        lead = place[int(np.argmin(named))]
+        a, b, c = sorted(place, key=lambda at: (at - lead) % len(boundary))
+        return int(boundary[a]), int(boundary[b]), int(boundary[c])

@@ -1,0 +1,144 @@
+"""Turning polygons so that all of a chart are wound one way, and cutting charts that have only one side."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+from ..errors import ConformalUVError, OrientationError, listed
+from ..mesh.polygon_sides import PolygonSides
+from ..mesh.polygons import PolygonMesh
+from .faults import Faults
+from .seaming import SeamedMesh
+
+__all__ = ["disagreements", "note_orientation", "polygon_signs", "turned", "untwisted"]
+
+Ints = NDArray[np.int64]
+Signs = NDArray[np.int8]
+
+
+def disagreements(seamed: SeamedMesh) -> Ints:
+    """Joined sides that run the same way as their twins, each pair once."""
+    one, other = seamed.joined
+    return one[seamed.mesh.corners[one] == seamed.mesh.corners[other]]
+
+
+def polygon_signs(seamed: SeamedMesh) -> Signs:
+    """+1 or -1 for each polygon so that all agree across joined sides, +1 for the larger part of a chart; 0 on
+    one-sided charts.
+
+    A node for either winding of every polygon; a chart has one side when both windings of a polygon hang together.
+    """
+    p = len(seamed.mesh.sizes)
+    one, other = seamed.joined
+    f, g = seamed.sides.polygon[one], seamed.sides.polygon[other]
+    crossed = (seamed.mesh.corners[one] == seamed.mesh.corners[other]).astype(np.int64)
+    rows = np.concatenate((f, f + p))
+    columns = np.concatenate((g + p * crossed, g + p * (1 - crossed)))
+    cover = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(2 * p, 2 * p))
+    count, label = connected_components(cover, directed=False)
+    plus, minus = label[:p], label[p:]
+    piece = np.minimum(plus, minus)
+    lead = plus == piece
+    larger = 2 * np.bincount(piece, weights=lead, minlength=count) >= np.bincount(piece, minlength=count)
+    sign = np.where(lead == larger[piece], 1, -1).astype(np.int8)
+    sign[plus == minus] = 0
+    return sign
+
+
+def note_orientation(faults: Faults, sign: Signs, chart: Ints, name: Ints) -> None:
+    """Charts with polygons wound against the rest, or with one side only."""
+
+    def against(own: Ints) -> ConformalUVError:
+        return OrientationError(
+            f"{len(own)} faces are wound against their neighbours: faces {listed(own)}. "
+            'Flip their normals, or pass orientation="mend".',
+            own,
+        )
+
+    def one_sided(own: Ints) -> ConformalUVError:
+        return OrientationError(
+            f"The surface has only one side, like a Moebius band ({len(own)} faces: {listed(own)}). "
+            'Mark a seam across the band, or pass orientation="mend".',
+            own,
+        )
+
+    for value, tell in ((0, one_sided), (-1, against)):
+        bad = np.flatnonzero(sign == value)
+        faults.note(name[bad], chart[bad], tell)
+
+
+def untwisted(seamed: SeamedMesh, sign: Signs, chart: Ints) -> tuple[SeamedMesh, Signs]:
+    """Cut one-sided charts: signs spread from a first polygon breadth first, sides that still disagree are cut.
+
+    The tree along which the signs spread stays uncut, so that a chart stays in one piece.
+
+    Returns
+    -------
+    The mesh with those sides cut, and signs without 0.
+    """
+    p = len(sign)
+    one, other = seamed.joined
+    twisted = sign[seamed.sides.polygon[one]] == 0
+    one, other = one[twisted], other[twisted]
+    f, g = seamed.sides.polygon[one], seamed.sides.polygon[other]
+    crossed = seamed.mesh.corners[one] == seamed.mesh.corners[other]
+    rows, columns = np.concatenate((f, g)), np.concatenate((g, f))
+    graph = csr_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(p, p))
+    parent = np.arange(p)
+    for first in np.unique(chart[sign == 0], return_index=True)[1]:
+        _, before = breadth_first_order(graph, np.flatnonzero(sign == 0)[first], directed=False)
+        parent = np.where(before >= 0, before, parent)
+    # Parity of the crossings between each polygon and the root of its tree, by pointer doubling.
+    crossing = _crosses(f, g, crossed, np.arange(p), parent, p)
+    while (parent[parent] != parent).any():
+        crossing ^= crossing[parent]
+        parent = parent[parent]
+    filled = np.where(sign == 0, np.where(crossing, -1, 1), sign).astype(np.int8)
+    wrong = crossed != (filled[f] != filled[g])
+    twin = seamed.twin.copy()
+    twin[one[wrong]] = twin[other[wrong]] = -1
+    return replace(seamed, twin=twin), filled
+
+
+def _crosses(
+    f: Ints, g: Ints, crossed: NDArray[np.bool_], child: Ints, parent: Ints, p: int
+) -> NDArray[np.bool_]:
+    """Whether a side between each child and its parent disagrees, (p,); False at roots.
+
+    Where several sides join the two, the last of them counts.
+    """
+    key = np.concatenate((f * p + g, g * p + f))
+    order = np.argsort(key, kind="stable")
+    key, value = key[order], np.concatenate((crossed, crossed))[order]
+    place = np.searchsorted(key, child * p + parent, side="right") - 1
+    found = (child != parent) & (place >= 0)
+    return np.where(found, value[np.maximum(place, 0)], False)
+
+
+def turned(seamed: SeamedMesh, sign: Signs) -> tuple[SeamedMesh, Ints]:
+    """The same polygons with those of sign -1 wound the other way, and the old corner of each corner."""
+    mesh, sides = seamed.mesh, seamed.sides
+    corner = np.arange(len(mesh.corners))
+    back = sign[sides.polygon] < 0
+    ends = mesh.starts[sides.polygon] + mesh.starts[sides.polygon + 1] - 1
+    corner = np.where(back, ends - corner, corner)
+    before = np.empty_like(corner)
+    before[sides.follow] = np.arange(len(corner))
+    side = np.where(back, before[corner], corner)  # the old side that each side is
+    place = np.empty_like(side)
+    place[side] = np.arange(len(side))
+
+    def renumbered(twin: Ints) -> Ints:
+        old = twin[side]
+        return np.where(old >= 0, place[np.maximum(old, 0)], old)
+
+    turned_sides = PolygonSides(
+        sides.follow, sides.polygon, sides.key, sides.edge[side], sides.count, renumbered(sides.twin)
+    )
+    turned_mesh = PolygonMesh(mesh.V, mesh.corners[corner], mesh.starts)
+    return SeamedMesh(turned_mesh, turned_sides, seamed.seam, renumbered(seamed.twin)), corner
