@@ -21,6 +21,10 @@ class Gauge(Protocol):
         """Columns (nb, c) to which a step must be orthogonal to keep the constraints to first order."""
         ...
 
+    def curvature(self, theta: Real, gradient: Real) -> Real:
+        """Diagonal (nb,) to add to the Hessian: minus the constraints' own, times their multipliers."""
+        ...
+
     def restore(self, theta: Real) -> Real:
         """Angles nearby that satisfy the constraints exactly."""
         ...
@@ -40,6 +44,11 @@ class CentreGauge:
     def normals(self, theta: Real) -> Real:
         """See Gauge."""
         return self._measure[:, None] * np.column_stack((np.ones_like(theta), np.cos(theta), np.sin(theta)))
+
+    def curvature(self, theta: Real, gradient: Real) -> Real:
+        """See Gauge; the multipliers are those of least squares."""
+        (_, along_cos, along_sin), *_ = np.linalg.lstsq(self.normals(theta), gradient, rcond=None)
+        return self._measure * (along_cos * np.sin(theta) - along_sin * np.cos(theta))
 
     def restore(self, theta: Real) -> Real:
         """See Gauge."""
@@ -62,6 +71,10 @@ class TurnGauge:
         """See Gauge."""
         return self._measure[:, None]
 
+    def curvature(self, theta: Real, gradient: Real) -> Real:
+        """See Gauge; linear constraints have none."""
+        return np.zeros_like(theta)
+
     def restore(self, theta: Real) -> Real:
         """See Gauge."""
         return theta + (self._mean - float(self._measure @ theta))
@@ -78,6 +91,10 @@ class PinGauge:
         columns = np.zeros((len(theta), 3))
         columns[self._pinned, [0, 1, 2]] = 1.0
         return columns
+
+    def curvature(self, theta: Real, gradient: Real) -> Real:
+        """See Gauge; linear constraints have none."""
+        return np.zeros_like(theta)
 
     def restore(self, theta: Real) -> Real:
         """See Gauge."""

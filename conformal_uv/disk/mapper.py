@@ -99,10 +99,11 @@ class DiskMapper:
             log.warning("%s stopped before its tolerance, after %d rows", method, len(solution.history))
         progress("placement", 0.0)
         z, center = self._placed(solution, options)
-        folded = z
+        z = np.where(np.abs(z) > 1.0, z / np.maximum(np.abs(z), 1.0), z)  # rounding of an ill-conditioned solution
+        folded, exhausted = z, False
         if options.repair == "auto" and options.method != "augmented-lagrangian":
-            z = repaired(self.surface, z, self.boundary, progress)
-        result = disk_map_result(self.surface, solution, options, z, folded, center, self.backend)
+            z, exhausted = repaired(self.surface, z, self.boundary, progress)
+        result = disk_map_result(self.surface, solution, options, z, folded, exhausted, center, self.backend)
         progress("placement", 1.0)
         return result
 
@@ -140,6 +141,8 @@ class DiskMapper:
         corners = self.surface.corners
         if options.pins is not None:
             return place_pins(solution.problem, corners, solution.z, options.pins), None
-        center = solution.center if options.center is None else options.center
+        center = options.center
+        if center is None and solution.center is not None and abs(solution.z[solution.center]) < 1.0:
+            center = solution.center  # where crowding has not swept it onto the circle
         first = int(self.boundary[0]) if options.boundary_vertex is None else options.boundary_vertex
         return place_center(solution.problem, corners, solution.z, center, first), center

@@ -19,6 +19,7 @@ __all__ = ["NewtonResult", "NewtonStep", "minimise_boundary_energy"]
 Real = NDArray[np.float64]
 log = logging.getLogger(__name__)
 
+EPS = np.finfo(np.float64).eps
 GAP_KEPT = 0.1  # of the angle between two neighbours, what a step leaves at the least
 SHORTEST_STEP = 0.05  # of a Newton direction; neighbours that allow no more are linked
 SMALLEST_GAP = 1e-12  # radians; below it neighbours are linked from the start
@@ -69,8 +70,8 @@ def minimise_boundary_energy(
 
     The energy never rises and the order of the boundary is never broken: neighbours that want to change places are
     linked, and move together from then on unless the energy would fall by parting them. The iteration ends when the
-    norm of the gradient, projected onto what gauge and links leave free, is at most `tolerance`, when no step lowers
-    the energy any more, or after `max_iterations`.
+    norm of the gradient, projected onto what gauge and links leave free, is at most `tolerance` or the rounding of its
+    terms, when no step lowers the energy any more, or after `max_iterations`.
 
     Parameters
     ----------
@@ -80,25 +81,26 @@ def minimise_boundary_energy(
     history: list[NewtonStep] = []
     energy = BoundaryEnergy(problem, gauge.restore(theta), minus_area=minus_area)
     links = _gaps(energy.theta) < SMALLEST_GAP
-    released = np.zeros_like(links)
+    kept = np.full_like(links, links.any())  # on a crowded boundary gaps are mostly rounding, and links stay
+    degrees = problem.Lbb.diagonal()
+    tolerance = max(tolerance, 64.0 * EPS * float(np.linalg.norm(degrees)))
     first = None
     for iteration in range(max_iterations + 1):
         tangent = Tangent(gauge, energy.theta, links)
         norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         if norm <= tolerance:
-            parting = links & ~released & (tangent.pull_of_links(energy.gradient) < -tolerance)
-            parting &= _gaps(energy.theta) >= SMALLEST_GAP
+            parting = links & ~kept & (tangent.pull_of_links(energy.gradient) < -tolerance)
             if parting.any():  # each link is let go at most once, so that this ends
-                links, released = links & ~parting, released | parting
+                links, kept = links & ~parting, kept | parting
                 tangent = Tangent(gauge, energy.theta, links)
                 norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         first = first or norm
         progress("newton", _fraction(norm, first, tolerance))
         if norm <= tolerance or iteration == max_iterations:
             break
-        direction, cg_steps = _newton_direction(energy, tangent, tangent.project(energy.gradient), tolerance)
+        direction, cg_steps = _newton_direction(energy, gauge, tangent, tolerance)
         blocking = _blocking(energy.theta, direction)
-        if blocking.any() and (links | blocking).sum() <= len(links) - 4:
+        if blocking.any() and (links | blocking).sum() <= len(links) - 3:
             links = links | blocking
             continue
         found = _line_search(energy, gauge, tangent, direction)
@@ -113,9 +115,14 @@ def minimise_boundary_energy(
 
 
 def _newton_direction(
-    energy: BoundaryEnergy, tangent: Tangent, gradient: Real, tolerance: float
+    energy: BoundaryEnergy, gauge: Gauge, tangent: Tangent, tolerance: float
 ) -> tuple[Real, int]:
-    """Solve ``P H P d = -g`` by preconditioned conjugate gradients, stopped early (Steihaug 1983)."""
+    """Solve ``P H P d = -P g`` by preconditioned conjugate gradients, stopped early (Steihaug 1983).
+
+    H is the Hessian of the Lagrangian, energy less constraints times multipliers.
+    """
+    gradient = tangent.project(energy.gradient)
+    bend = gauge.curvature(energy.theta, energy.gradient)
     norm = float(np.linalg.norm(gradient))
     goal = max(min(0.1, np.sqrt(norm)) * norm, 0.3 * tolerance)
     direction = np.zeros_like(gradient)
@@ -123,7 +130,7 @@ def _newton_direction(
     smooth = tangent.precondition(residual)
     search, product = smooth, float(residual @ smooth)
     for step in range(1, MOST_CG_STEPS + 1):
-        image = tangent.project(energy.hessian_product(search))
+        image = tangent.project(energy.hessian_product(search) + bend * search)
         curvature = float(search @ image)
         if curvature <= 1e-12 * product:  # the energy does not rise along the search direction
             return (direction if step > 1 else smooth), step
@@ -147,7 +154,8 @@ def _line_search(
     """
     slope = float(energy.gradient @ direction)
     norm = np.linalg.norm(tangent.project(energy.gradient))
-    noise = 64.0 * np.finfo(np.float64).eps * (abs(energy.value) + np.pi)
+    degrees = energy.problem.Lbb.diagonal()
+    noise = EPS * (64.0 * (abs(energy.value) + np.pi) + 4.0 * float(np.linalg.norm(degrees)))
     length = min(1.0, float(_room(energy.theta, direction).min()))
     for _ in range(30):
         theta = gauge.restore(energy.theta + length * direction)

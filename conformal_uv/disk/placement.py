@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import SolverError
 from ..operators.dirichlet import DirichletProblem
 from ..operators.moebius import Moebius
 from ..operators.wirtinger import planar_sides, signed_double_areas
@@ -22,6 +23,11 @@ def place_center(
 ) -> Complex:
     """The map with `center` (None: what is at 0 now) at 0 and the boundary vertex at 1."""
     p = 0.0 if center is None else complex(z[center])
+    if not abs(p) < 1.0:
+        raise SolverError(
+            f"Vertex {center} comes to lie on the circle: seen from there the rest of the surface is too small for "
+            "doubles. Choose a center farther from the boundary."
+        )
     placed = _moved(problem, corners, z, Moebius.to_zero(p, z[boundary_vertex]))
     if center is not None:
         # Where harmonic extension had to replace the moved interior, the centre is off by a little.

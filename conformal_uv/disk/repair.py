@@ -2,7 +2,8 @@
 
 Around the folds the vertices are placed anew by positive weights (mean value), everything else held where it is.
 Where folds remain the patch grows; when it takes in the whole interior, all weights are positive and the boundary is
-convex, so Tutte's theorem leaves no fold but those that doubles can not resolve.
+convex, so Tutte's theorem leaves no fold but those that doubles can not resolve. Uniform weights, which crowd the
+least, have the last try.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array, diags_array
+from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import splu
 
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
@@ -61,34 +62,46 @@ def unresolved_faces(z: Complex, corners: NDArray[np.int32], faces: NDArray[np.i
     return faces[shape.double_area <= RESOLUTION * np.maximum(longest, RESOLUTION)]
 
 
-def repaired(surface: Surface, z: Complex, boundary: NDArray[np.int64], progress: Progress) -> Complex:
+def repaired(
+    surface: Surface, z: Complex, boundary: NDArray[np.int64], progress: Progress
+) -> tuple[Complex, bool]:
     """Positions without folds; z itself where it has none.
 
     Parameters
     ----------
     z : (n,) complex128
         Positions in the unit disk, the boundary on the circle in order.
+
+    Returns
+    -------
+    z : (n,) complex128
+    exhausted : bool
+        Folds are left that positive weights everywhere did not undo: doubles can not hold the map unfolded.
     """
     corners, n = surface.corners, surface.n
     folds = _folds(z, corners)
     if not len(folds):
-        return z
-    geometry = _safe_geometry(surface)
+        return z, False
     inside = np.ones(n, dtype=bool)
     inside[boundary] = False
+    geometry = _safe_geometry(surface)
     patch = np.zeros(n, dtype=bool)
-    best, start = z, z
-    fewest = len(folds)
+    candidates = [(len(folds), z)]
     rings = 1
     while len(folds) and not patch[inside].all():
         progress("repair", min(0.99, patch.sum() / max(inside.sum(), 1)))
         patch |= _ball(corners, folds, rings, n) & inside
-        z = _placed(corners, geometry, start, patch)
-        folds = _folds(z, corners)
-        if len(folds) < fewest:
-            best, fewest = z, len(folds)
+        moved = _placed(mean_value_matrix(corners, geometry, n, _touching(corners, patch)), z, patch)
+        folds = _folds(moved, corners)
+        candidates.append((len(folds), moved))
         rings *= 2
-    return best
+    if len(folds) and inside.any():
+        moved = _placed(_adjacency(surface), z, inside)
+        candidates.append((len(_folds(moved, corners)), moved))
+    fewest, best = min(candidates, key=lambda candidate: candidate[0])
+    if 2 * fewest > candidates[0][0]:  # little to be had for all the angles that it would cost
+        return z, True
+    return best, fewest > 0
 
 
 def _folds(z: Complex, corners: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -108,16 +121,15 @@ def _ball(corners: NDArray[np.int32], faces: NDArray[np.int64], rings: int, n: i
     return near
 
 
-def _placed(
-    corners: NDArray[np.int32], geometry: TriangleGeometry, z: Complex, patch: NDArray[np.bool_]
-) -> Complex:
+def _touching(corners: NDArray[np.int32], patch: NDArray[np.bool_]) -> NDArray[np.int64]:
+    return np.flatnonzero(patch[corners].any(axis=0))
+
+
+def _placed(weights: csr_array, z: Complex, patch: NDArray[np.bool_]) -> Complex:
     """z with each vertex of the patch at the weighted mean of its neighbours."""
-    faces = np.flatnonzero(patch[corners].any(axis=0))
-    weights = mean_value_matrix(corners, geometry, len(z), faces)
     free = np.flatnonzero(patch)
     rows = weights[free]
-    total = rows.sum(axis=1)
-    rows = diags_array(1.0 / total) @ rows
+    rows = diags_array(1.0 / rows.sum(axis=1)) @ rows
     held = z.copy()
     held[free] = 0.0
     system = csc_array(diags_array(np.ones(len(free))) - rows[:, free])
@@ -128,7 +140,15 @@ def _placed(
     return out
 
 
+def _adjacency(surface: Surface) -> csr_array:
+    """Weight 1 between the two vertices of each edge."""
+    lo, hi = surface.edges.lo, surface.edges.hi
+    ends = np.concatenate((lo, hi)), np.concatenate((hi, lo))
+    return csr_array((np.ones(2 * len(lo)), ends), shape=(surface.n, surface.n))
+
+
 def _safe_geometry(surface: Surface) -> TriangleGeometry:
+    """Geometry in which every face has area."""
     if not len(surface.degenerate):
         return surface.geometry
     return intrinsic_geometry(mollified(np.sqrt(np.maximum(surface.geometry.squared_lengths, 0.0))))

@@ -42,7 +42,7 @@ class DiskMap:
         Faces with non-positive signed area in uv, decided exactly.
     lost_to_double : (k,) int64
         Those of them whose height is within the rounding of the positions: crowded faces, too small in the disk for
-        doubles to hold.
+        doubles to hold. All of them where positive weights everywhere left folds, which only rounding can do.
     converged : bool
         Whether the method reached its tolerance; always true of "linear", which does not iterate.
     history : tuple
@@ -105,10 +105,14 @@ def disk_map_result(
     options: DiskOptions,
     z: Complex,
     folded: Complex,
+    exhausted: bool,
     center: int | None,
     backend: str,
 ) -> DiskMap:
-    """Measure positions z (n,); `folded` are those before the repair, z itself where nothing was done."""
+    """Measure positions z (n,).
+
+    `folded` are those before the repair, z itself where nothing was done; `exhausted` as `repaired` returns it.
+    """
     uv = z.copy().view(np.float64).reshape(-1, 2)
     flipped = flipped_faces(z, surface.corners)
     sides = planar_sides(z, surface.corners)
@@ -125,7 +129,7 @@ def disk_map_result(
         dirichlet_energy=dirichlet,
         conformal_energy=conformal,
         flipped=flipped,
-        lost_to_double=unresolved_faces(z, surface.corners, flipped),
+        lost_to_double=flipped if exhausted else unresolved_faces(z, surface.corners, flipped),
         converged=solution.converged,
         history=solution.history,
         repair=None if folded is z else _cost(surface, z, folded, flipped),

@@ -30,7 +30,9 @@ class Tangent:
             self._turn = int(np.flatnonzero(~links)[0]) + 1
             self._chain = np.cumsum(~np.roll(links, 1 - self._turn))
             self._count = np.maximum(np.bincount(self._chain), 1)
-        self._basis, _ = np.linalg.qr(np.column_stack([self._mean(column) for column in gauge.normals(theta).T]))
+        normals = np.column_stack([self._mean(column) for column in gauge.normals(theta).T])
+        basis, size, _ = np.linalg.svd(normals, full_matrices=False)
+        self._basis = basis[:, size > 1e-12 * size.max(initial=0.0)]  # links can leave fewer than there were
         self._inverse = FourierPreconditioner(len(theta))
         self._image = np.column_stack([self._smooth(column) for column in self._basis.T])
         self._gram = self._basis.T @ self._image

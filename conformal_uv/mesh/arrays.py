@@ -33,7 +33,9 @@ def vertex_array(V: ArrayLike) -> NDArray[np.float64]:
         raise MeshError(f"V has shape {array.shape}; pass vertices as (n, 3) floats.")
     if array.shape[1] == 2:
         array = np.column_stack((array, np.zeros(len(array))))
-    if not np.isfinite(array.sum()):  # one pass; the indices are looked for only when there are some
+    with np.errstate(invalid="ignore", over="ignore"):
+        total = array.sum()  # one pass; the indices are looked for only when there are some
+    if not np.isfinite(total):
         bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
         if len(bad):
             raise NonFiniteError(

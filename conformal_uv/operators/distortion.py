@@ -104,18 +104,19 @@ def distortion_of(
     return Distortion(
         angle_error=np.degrees(np.abs(angle, out=angle), out=angle).T,
         quasi_conformal=_ratio(plus + minus, small, has_area & (small > 0)),
-        area_scale=_ratio(shape.double_area, geometry.double_area * unit * unit, has_area),
+        area_scale=_ratio(shape.double_area, geometry.double_area, has_area, unit),
         flipped=np.flatnonzero(signed <= 0),
     )
 
 
 def _ratio(
-    over: NDArray[np.float64], under: NDArray[np.float64], where: NDArray[np.bool_]
+    over: NDArray[np.float64], under: NDArray[np.float64], where: NDArray[np.bool_], unit: float = 1.0
 ) -> NDArray[np.float64]:
-    """Quotient, infinite elsewhere."""
+    """Quotient divided by the unit squared, infinite elsewhere and where it is too large for doubles."""
     out = np.full(len(over), np.inf)
-    np.divide(over, under, out=out, where=where)
-    return out
+    with np.errstate(over="ignore", under="ignore"):
+        np.divide(over, under, out=out, where=where)
+        return out / unit / unit
 
 
 def _outward(image: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.float64]:

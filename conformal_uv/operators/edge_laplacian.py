@@ -12,7 +12,7 @@ from ..mesh.geometry import TriangleGeometry
 from ..mesh.halfedges import HalfEdges, half_edges
 from ..mesh.manifold import check_areas, degenerate_faces
 from .intrinsic_delaunay import intrinsic_delaunay
-from .laplacian import cotangent_weights, intrinsic_geometry
+from .laplacian import cotangent_weights
 from .mollification import mollified
 
 __all__ = ["LAPLACIANS", "EdgeLaplacian", "cotan_edges", "edge_laplacian", "intrinsic_delaunay_edges", "uniform_edges"]
@@ -92,8 +92,7 @@ def intrinsic_delaunay_edges(
     """Cotangent weights of the intrinsic Delaunay triangulation: non-negative inside."""
     lengths = mollified(np.sqrt(np.maximum(geometry.squared_lengths, 0.0)))
     delaunay = intrinsic_delaunay(corners, lengths, twin)
-    shape = intrinsic_geometry(delaunay.lengths)
-    half = 0.5 * (shape.dot / shape.double_area)[[2, 0, 1]].reshape(-1)
+    half = 0.5 * delaunay.cotangents[[2, 0, 1]].reshape(-1)
     inner = np.flatnonzero(delaunay.twin >= 0)
     pair = half[inner] + half[delaunay.twin[inner]]
     half[inner[pair < 0.0]] = 0.0  # Delaunay to rounding: the four vertices lie on a circle

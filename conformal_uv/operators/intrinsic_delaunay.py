@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolverError
-from ..mesh.geometry import TriangleGeometry
 from .laplacian import intrinsic_geometry
 
 __all__ = ["IntrinsicTriangulation", "intrinsic_delaunay"]
@@ -46,9 +45,9 @@ class IntrinsicTriangulation:
     flips: int
 
     @property
-    def geometry(self) -> TriangleGeometry:
-        """Corner products and areas."""
-        return intrinsic_geometry(self.lengths)
+    def cotangents(self) -> Real:
+        """Cotangent of every corner's angle, (3, m)."""
+        return _areas_and_cotangents(self.lengths)[1]
 
 
 def intrinsic_delaunay(corners: Index, lengths: Real, twin: Index) -> IntrinsicTriangulation:
@@ -88,9 +87,7 @@ class _Flipper:
         self.corners, self.lengths, self.twin = corners, lengths, twin
         self.m = corners.shape[1]
         self.flips = 0
-        geometry = intrinsic_geometry(lengths)
-        self._area2 = geometry.double_area
-        self._cot = geometry.dot / geometry.double_area
+        self._area2, self._cot = _areas_and_cotangents(lengths)
         self._moved = np.full(3 * self.m, -1, dtype=np.int32)
         self._rank = np.empty(self.m, dtype=np.int64)
 
@@ -149,9 +146,7 @@ class _Flipper:
         self.twin[f + 2 * m], self.twin[g + 2 * m] = g + 2 * m, f + 2 * m
 
         touched = np.concatenate((f, g))
-        geometry = intrinsic_geometry(self.lengths[:, touched])
-        self._area2[touched] = geometry.double_area
-        self._cot[:, touched] = geometry.dot / geometry.double_area
+        self._area2[touched], self._cot[:, touched] = _areas_and_cotangents(self.lengths[:, touched])
         self.flips += len(h)
         following = np.concatenate((waiting, new[inner]))
         following = np.sort(np.minimum(following, self.twin[following]))
@@ -161,3 +156,11 @@ class _Flipper:
         """Where half-edges are after the flips at hand; -1 stays -1."""
         moved = self._moved[h]
         return np.where((h >= 0) & (moved >= 0), moved, h)
+
+
+def _areas_and_cotangents(lengths: Real) -> tuple[Real, Real]:
+    """Doubled areas (m,), kept above rounding so that nothing is divided by 0, and cotangents (3, m)."""
+    geometry = intrinsic_geometry(lengths)
+    longest = lengths.max(axis=0)
+    area2 = np.maximum(geometry.double_area, EPS * longest * longest)
+    return area2, geometry.dot / area2

@@ -15,6 +15,8 @@ from ..mesh.geometry import TriangleGeometry
 
 __all__ = ["mean_value_matrix"]
 
+EPS = np.finfo(np.float64).eps
+
 
 def mean_value_matrix(
     corners: NDArray[np.int32], geometry: TriangleGeometry, n: int, faces: NDArray[np.int64]
@@ -25,7 +27,6 @@ def mean_value_matrix(
     ----------
     corners : (3, m) int32
     geometry : TriangleGeometry
-        Of triangles with area.
     n : int
         Number of vertices.
     faces : (k,) int64
@@ -35,12 +36,15 @@ def mean_value_matrix(
     -------
     (n, n) csr_array, no diagonal, entries positive.
     """
-    dot, area2 = geometry.dot[:, faces], geometry.double_area[faces]
-    length = np.sqrt(geometry.squared_lengths[:, faces])
+    dot = geometry.dot[:, faces]
+    squared = np.maximum(geometry.squared_lengths[:, faces], 0.0)
+    longest = squared.max(axis=0, initial=np.finfo(np.float64).tiny)
+    area2 = np.maximum(geometry.double_area[faces], EPS * longest)  # nothing is divided by 0
+    length = np.sqrt(np.maximum(squared, EPS * EPS * longest))
     product = length * length[[2, 0, 1]]  # of the two edges at each corner
-    tangent = area2 / (product + dot)  # tan(angle / 2) = sin / (1 + cos)
+    # tan(angle / 2) = sin / (1 + cos) = (1 - cos) / sin, the one without cancellation
     obtuse = dot < 0.0
-    np.divide(product - dot, area2, out=tangent, where=obtuse)  # the same, (1 - cos) / sin, without cancellation
+    tangent = np.where(obtuse, product - dot, area2) / np.where(obtuse, area2, product + dot)
     here, after, before = corners[:, faces], corners[[1, 2, 0]][:, faces], corners[[2, 0, 1]][:, faces]
     rows = np.concatenate((here, here)).reshape(-1)
     columns = np.concatenate((after, before)).reshape(-1)
