@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import Delaunay
 
 __all__ = [
     "annulus",
@@ -16,6 +17,7 @@ __all__ = [
     "octahedron",
     "plate",
     "refined",
+    "scattered_disk",
     "slow_loops",
     "strip",
     "tetrahedron",
@@ -66,6 +68,20 @@ def plate(columns: int, rows: int, holes: tuple[tuple[int, int, int, int], ...] 
     F = np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d))))
     used, F = np.unique(F, return_inverse=True)
     return V[used], F.reshape(-1, 3)
+
+
+def scattered_disk(inner: int, around: int, seed: int) -> Mesh:
+    """Delaunay triangulation of random points in the unit disk, slivers and all; boundary vertices first."""
+    rng = np.random.default_rng(seed)
+    radius, t = 0.98 * np.sqrt(rng.random(inner)), 2.0 * np.pi * rng.random(inner)
+    rim = 2.0 * np.pi * np.arange(around) / around
+    x = np.concatenate((np.cos(rim), radius * np.cos(t)))
+    y = np.concatenate((np.sin(rim), radius * np.sin(t)))
+    V = np.column_stack((x, y, 0.0 * x))
+    F = Delaunay(V[:, :2]).simplices.astype(np.int64)
+    clockwise = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])[:, 2] < 0
+    F[clockwise] = F[clockwise, ::-1]
+    return V, F
 
 
 def annulus(around: int) -> Mesh:

@@ -318,6 +318,12 @@ def test_smallest_meshes_are_mapped(name: str, method: str) -> None:
     assert np.isfinite([m.conformal_energy, m.dirichlet_energy]).all()
 
 
+def test_a_thin_face_is_no_face_without_area() -> None:
+    """The area of heights down to 8 eps of the length is told from rounding; 1e-17 is refused above."""
+    V = SMALL["thin triangle"][0] * [1.0, 1e-2, 1.0]  # 1e-14 high
+    assert cuv.disk_map(V, [[0, 1, 2]], laplacian="cotan").laplacian == "cotan"
+
+
 WITHOUT_AREA = {
     "coincident vertices": merged_positions(5, 6),
     "collinear": np.where(np.arange(16)[:, None] == 6, (V33[5] + V33[10]) / 2.0, V33),
