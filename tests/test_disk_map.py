@@ -479,6 +479,20 @@ def test_mapper_asked_again_gives_the_one_shot_map(monkeypatch: pytest.MonkeyPat
     assert min(np.abs(a - b).max() for a, b in itertools.combinations(distinct, 2)) > 1e-9
 
 
+@pytest.mark.parametrize("method", ["linear", "newton"])
+def test_another_place_takes_no_other_solution(method: str) -> None:
+    """Told by the stages that run: another tolerance solves again, without a factorization."""
+    mapper = cuv.DiskMapper(*MASK)
+    mapper.map(method=method)
+    for options in ({"center": CENTER}, {"boundary_vertex": int(mapper.boundary[5])}, {"pins": mapper.boundary[:9:4]}):
+        stages: set[str] = set()
+        mapper.map(method=method, callback=lambda stage, _, stages=stages: stages.add(stage), **options)
+        assert "placement" in stages and stages <= {"placement", "repair"}
+    stages = set()
+    mapper.map(tolerance=1e-6, callback=lambda stage, _: stages.add(stage))
+    assert "newton" in stages and stages <= {"linear", "newton", "placement", "repair"}
+
+
 def test_mapper_knows_its_boundary_and_backend() -> None:
     mapper = cuv.DiskMapper(*MASK, backend="superlu")
     assert mapper.backend == mapper.map(method="linear").backend == "superlu"
