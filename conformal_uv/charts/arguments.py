@@ -174,7 +174,8 @@ def vertex_list(name: str, value: int | Iterable[Any] | None, used: Bools) -> In
     if value is None:
         return np.empty(0, dtype=np.int64)
     try:
-        raw = np.asarray(value if np.ndim(value) == 0 else list(value))  # type: ignore[arg-type]
+        lists = [value] if isinstance(value, int | np.integer) else list(value)
+        raw = np.concatenate([np.ravel(item) for item in lists] or [np.empty(0)])
     except (TypeError, ValueError) as error:
         raise OptionError(f"{name} is {value!r}; pass vertex indices.") from error
     if raw.size == 0:

@@ -14,6 +14,8 @@ __all__ = ["OneChart", "handle_cut", "sphere_cut"]
 Ints = NDArray[np.int64]
 Real = NDArray[np.float64]
 
+MOST_ROOTS, SITES_FOR_ALL_ROOTS = 16, 200_000  # where the tree of a closed surface is tried from
+
 
 @dataclass(frozen=True, eq=False)
 class OneChart:
@@ -77,15 +79,24 @@ def sphere_cut(chart: OneChart) -> Ints:
 def handle_cut(chart: OneChart) -> Ints:
     """A cut graph of a surface with handles, closed or with one boundary loop, as pairs of sides.
 
-    Erickson and Whittlesey (2005), "Greedy optimal homotopy and homology generators": the tree of shortest paths
-    from the boundary (from site 0 of a closed surface); the spanning tree of polygons that crosses the sides with
-    the longest loops through the first tree; each side in neither tree closes a loop, and these loops are the cut.
-    Stems that hang on it by one end are taken off.
+    Erickson and Whittlesey (2005), "Greedy optimal homotopy and homology generators": a tree of shortest paths; the
+    spanning tree of polygons that crosses the sides with the longest loops through the first tree; each side in
+    neither tree closes a loop, and these loops are the cut. Stems that hang on it by one end are taken off. The
+    first tree grows from the boundary; on a closed surface from several sites in turn, and the shortest cut is kept.
     """
-    sources = np.unique(np.concatenate((chart.rim_tail, chart.rim_head)))
-    if not len(sources):
-        sources = np.zeros(1, dtype=np.int64)
-    distance, before, _ = dijkstra(chart.graph(), indices=sources, min_only=True, return_predecessors=True)
+    graph = chart.graph()
+    rim = np.unique(np.concatenate((chart.rim_tail, chart.rim_head)))
+    if len(rim):
+        return _greedy_cut(chart, graph, rim)
+    tries = int(np.clip(SITES_FOR_ALL_ROOTS // chart.sites, 1, MOST_ROOTS))
+    roots = np.unique(np.linspace(0, chart.sites - 1, tries).astype(np.int64))
+    cuts = [_greedy_cut(chart, graph, roots[k : k + 1]) for k in range(len(roots))]
+    return min(cuts, key=lambda cut: float(chart.length[cut].sum()))
+
+
+def _greedy_cut(chart: OneChart, graph: csr_array, sources: Ints) -> Ints:
+    """The cut graph whose tree of shortest paths grows from the given sites."""
+    distance, before, _ = dijkstra(graph, indices=sources, min_only=True, return_predecessors=True)
     branch = np.flatnonzero(before >= 0)
     in_tree = np.zeros(len(chart.tail), dtype=bool)
     tree_pair = np.full(chart.sites, -1, dtype=np.int64)

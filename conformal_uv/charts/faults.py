@@ -100,7 +100,7 @@ def note_pinched_vertices(faults: Faults, seamed: SeamedMesh, elsewhere: Bools, 
     corners, polygon, follow = seamed.mesh.corners, seamed.sides.polygon, seamed.sides.follow
     one = np.flatnonzero(seamed.sides.twin >= 0)
     one = one[one < seamed.sides.twin[one]]
-    extra = crowded_pairs(seamed)
+    extra = crowded_pairs(seamed, np.ones_like(seamed.seam))
     one, other = np.concatenate((one, extra[0])), np.concatenate((seamed.sides.twin[one], extra[1]))
     pinched = np.zeros(len(elsewhere), dtype=bool)
     pinched[pinched_vertices(corners, *corner_links(corners, follow, one, other), len(elsewhere))] = True

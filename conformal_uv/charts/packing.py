@@ -20,8 +20,8 @@ GROWTH = 1.02  # of the square's side from one try to the next
 
 
 def kept_margin(margin: float, count: int) -> float:
-    """The margin that `count` disks can keep: at most half of their share of the square's side."""
-    return min(margin, 0.5 / max(1.0, np.ceil(np.sqrt(count))))
+    """The margin that `count` disks can keep: at most a quarter of a disk's share of the square's side."""
+    return min(margin, 0.25 / max(1.0, np.ceil(np.sqrt(count))))
 
 
 def pack_disks(radius: Real, margin: float) -> tuple[Real, float]:

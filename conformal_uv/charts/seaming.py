@@ -13,7 +13,7 @@ from ..mesh.polygon_sides import PolygonSides, edge_keys, polygon_sides
 from ..mesh.polygons import PolygonMesh
 from .arguments import check_seams
 
-__all__ = ["SeamedMesh", "linked_charts", "seamed_mesh", "selected_part"]
+__all__ = ["SeamedMesh", "crowded_pairs", "linked_charts", "seamed_mesh", "selected_part"]
 
 Ints = NDArray[np.int64]
 
@@ -91,7 +91,7 @@ def linked_charts(seamed: SeamedMesh, *, across_crowded: bool) -> tuple[int, Int
     one, other = seamed.joined
     f, g = polygon[one], polygon[other]
     if across_crowded:
-        left, right = crowded_pairs(seamed)
+        left, right = crowded_pairs(seamed, ~seamed.seam)
         f, g = np.concatenate((f, polygon[left])), np.concatenate((g, polygon[right]))
     graph = coo_array((np.ones(len(f), dtype=np.int8), (f, g)), shape=(p, p))
     count, label = connected_components(graph, directed=False)
@@ -102,10 +102,10 @@ def linked_charts(seamed: SeamedMesh, *, across_crowded: bool) -> tuple[int, Int
     return count, rank[label]
 
 
-def crowded_pairs(seamed: SeamedMesh) -> tuple[Ints, Ints]:
-    """Sides that follow each other on an edge of three or more that is no seam."""
+def crowded_pairs(seamed: SeamedMesh, edges: NDArray[np.bool_]) -> tuple[Ints, Ints]:
+    """Sides that follow each other on an edge of three or more, of the `edges` (e,) bool."""
     edge = seamed.sides.edge
-    side = np.flatnonzero((seamed.sides.twin == -2) & ~seamed.seam[edge])
+    side = np.flatnonzero((seamed.sides.twin == -2) & edges[edge])
     side = side[np.argsort(edge[side], kind="stable")]
     same = edge[side[1:]] == edge[side[:-1]]
     return side[:-1][same], side[1:][same]

@@ -82,7 +82,7 @@ def unwrap(
         "disk": every chart on the unit disk. "fit" and "pack": in the unit square; one chart fills it, several
         are packed, their areas in the same proportion as on the surface.
     margin : float
-        Least distance between disks and to the sides of the square; with very many charts, half of a chart's
+        Least distance between disks and to the sides of the square; with very many charts, a quarter of a chart's
         share of the side if that is less.
     callback : callable, optional
         Called as ``callback(stage, fraction)``, the fraction over all charts; the work stops with CancelledError
