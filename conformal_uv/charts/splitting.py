@@ -148,7 +148,7 @@ def _made_disks(split: Split, partner: Ints, mending: Mending) -> Split:
     if inner.any() and mending.holes == "refuse":
         _refuse_holes(split, found, inner)
     elif inner.any():
-        surface = zipped(split.surface, found, inner, partner)
+        surface = without_digons(zipped(split.surface, found, inner, partner), sound)
         if surface is not split.surface:
             changed = split.surface.polygon[np.flatnonzero(surface.twin != split.surface.twin)]
             for number in np.unique(split.surface.chart[changed]):
