@@ -15,6 +15,7 @@ __all__ = ["PLACES", "Placement", "check_place", "placements"]
 Real = NDArray[np.float64]
 
 PLACES = ("fit", "pack", "disk")
+PACKED_MARGIN = 0.005  # between packed disks where no margin is asked for
 LEAST_FILL = 1e-3  # an image that fills less of its disk than this counts as filling that much
 
 
@@ -26,15 +27,15 @@ class Placement:
     scale: float = 1.0
 
 
-def check_place(place: str, margin: float) -> None:
+def check_place(place: str, margin: float | None) -> None:
     """Raise OptionError on a place that is not known or a margin that leaves no room."""
     if place not in PLACES:
         raise OptionError(f"place is {place!r}; choose {', '.join(PLACES)}.")
-    if not 0.0 <= margin < 0.5:
+    if margin is not None and not 0.0 <= margin < 0.5:
         raise OptionError(f"margin is {margin}; pass a part of the unit square's side, at least 0 and below 0.5.")
 
 
-def placements(place: str, margin: float, area: Real, image_area: Real) -> list[Placement]:
+def placements(place: str, margin: float | None, area: Real, image_area: Real) -> list[Placement]:
     """A placement for each mapped chart.
 
     Parameters
@@ -48,9 +49,9 @@ def placements(place: str, margin: float, area: Real, image_area: Real) -> list[
     if place == "disk" or not len(area):
         return [Placement()] * len(area)
     if len(area) == 1:
-        return [Placement((0.5, 0.5), 0.5 - margin)]
+        return [Placement((0.5, 0.5), 0.5 - (margin or 0.0))]
     radius = np.sqrt(area / np.maximum(image_area, LEAST_FILL * np.pi))
     if not radius.max() > 0.0:
         radius = np.ones(len(area))
-    centers, scale = pack_disks(radius, kept_margin(margin, len(area)))
+    centers, scale = pack_disks(radius, kept_margin(PACKED_MARGIN if margin is None else margin, len(area)))
     return [Placement((float(x), float(y)), float(r)) for (x, y), r in zip(centers, radius * scale, strict=True)]

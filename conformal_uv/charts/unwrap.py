@@ -36,7 +36,7 @@ def unwrap(
     repair: str = "auto",
     backend: str = "auto",
     place: str = "fit",
-    margin: float = 0.005,
+    margin: float | None = None,
     callback: Callback | None = None,
 ) -> Unwrapped:
     """Split a polygon mesh into charts and map each conformally onto a disk.
@@ -81,8 +81,9 @@ def unwrap(
     place : {"fit", "pack", "disk"}
         "disk": every chart on the unit disk. "fit" and "pack": in the unit square; one chart fills it, several
         are packed, their areas in the same proportion as on the surface.
-    margin : float
-        Least distance between disks and to the sides of the square; with very many charts, a quarter of a chart's
+    margin : float, optional
+        Least distance between disks and to the sides of the square, by default 0.005 between several and none about
+        one, which then lies at 0.5 + 0.5 (x, y); with very many charts, a quarter of a chart's
         share of the side if that is less.
     callback : callable, optional
         Called as ``callback(stage, fraction)``, the fraction over all charts; the work stops with CancelledError

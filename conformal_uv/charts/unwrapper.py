@@ -88,7 +88,7 @@ class Unwrapper:
         max_iterations: int = 50,
         repair: str = "auto",
         place: str = "fit",
-        margin: float = 0.005,
+        margin: float | None = None,
         callback: Callback | None = None,
     ) -> Unwrapped:
         """Map all charts with the given options; see `unwrap`. Factorizations are used again."""

@@ -1,0 +1,115 @@
+"""Charts made into disks: holes filled, closed charts and handles cut open, or the reason why that is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import TopologyError
+from .boundaries import Boundaries, boundaries, genera, without_digons
+from .cut_graph import OneChart, handle_cut, sphere_cut
+from .cut_surface import CutSurface
+from .faults import by_chart
+from .holes import filled, zipped
+from .mending import Mending
+from .split import Split
+
+__all__ = ["made_disks"]
+
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+
+def made_disks(split: Split, partner: Ints, mending: Mending) -> Split:
+    """Choose the outer loops, fill the holes, cut closed charts and handles, or note why that is refused."""
+    surface, sound = split.surface, split.sound
+    found = boundaries(surface, sound)
+    faulty = surface.vertex[~sound[surface.chart[surface.polygon]]]
+    mending.check_outer_loop(np.concatenate((surface.vertex[found.side], faulty)))
+    inner = _inner_loops(split, found, mending)
+    if inner.any() and mending.holes == "refuse":
+        _refuse_holes(split, found, inner)
+    elif inner.any():
+        surface = without_digons(zipped(split.surface, found, inner, partner), sound)
+        if surface is not split.surface:
+            changed = split.surface.polygon[np.flatnonzero(surface.twin != split.surface.twin)]
+            for number in np.unique(split.surface.chart[changed]):
+                split.add_note(int(number), "seams that end inside the chart were closed")
+            split = split.with_surface(surface)
+            found = boundaries(surface, split.sound)
+            inner = _inner_loops(split, found, mending)
+        for number, holes in enumerate(np.bincount(found.chart_of_loop[inner], minlength=split.count).tolist()):
+            if holes:
+                split.add_note(number, f"{holes} hole{'s' * (holes > 1)} filled for the solution")
+        split = split.with_surface(filled(split.surface, found, inner))
+    return _cut_to_disks(split, mending)
+
+
+def _inner_loops(split: Split, found: Boundaries, mending: Mending) -> Bools:
+    outer = found.outer_loops(split.count, mending.outer_loop, split.surface)
+    inner = np.ones(len(found.length), dtype=bool)
+    inner[outer[outer >= 0]] = False
+    return inner
+
+
+def _refuse_holes(split: Split, found: Boundaries, inner: Bools) -> None:
+    loops = np.flatnonzero(np.isin(found.chart_of_loop, found.chart_of_loop[inner]))
+    first = split.surface.vertex[found.side[found.steps == 0]]
+    edges = np.bincount(found.loop, minlength=len(inner))
+
+    def tell(own: Ints) -> TopologyError:
+        told = ", ".join(f"{edges[i]} edges at vertex {first[i]}" for i in own[:8])
+        return TopologyError(
+            f"The chart has {len(own)} boundary loops ({told}{', ...' if len(own) > 8 else ''}); a disk has one. "
+            'Fill the holes, mark a seam between them, or pass holes="fill".',
+            first[own],
+        )
+
+    split.faults.note(loops, found.chart_of_loop[loops], tell)
+
+
+def _cut_to_disks(split: Split, mending: Mending) -> Split:
+    """Open closed charts and handles."""
+    sound = split.sound
+    found = boundaries(split.surface, sound)
+    genus = genera(split.surface, found, split.count)
+    closed = np.bincount(found.chart_of_loop, minlength=split.count) == 0
+    wanting = np.flatnonzero(sound & (closed | (genus > 0)))
+    if not len(wanting):
+        return split
+    if mending.closed == "refuse":
+        for number in wanting.tolist():
+            split.faults[number] = _closed_error(bool(closed[number]), int(genus[number]))
+        return split
+    one, other = split.surface.joined
+    chart = split.surface.chart[split.surface.polygon[one]]
+    kept = np.isin(chart, wanting)
+    cuts = []
+    for number, own in by_chart(np.flatnonzero(kept), chart[kept]):
+        local = _one_chart(split.surface, one[own], other[own], found.side[found.chart_of_loop[found.loop] == number])
+        pairs = handle_cut(local) if genus[number] else sphere_cut(local)
+        cuts.append(one[own[pairs]])
+        what = f"genus {genus[number]}" if genus[number] else "closed"
+        split.add_note(number, f"{what}: cut open along {len(pairs)} edges")
+    return split.with_surface(split.surface.cut_along(np.concatenate(cuts)))
+
+
+def _closed_error(closed: bool, genus: int) -> TopologyError:
+    if closed and not genus:
+        return TopologyError(
+            "The chart is closed, of genus 0: it has no boundary. Mark seams that cut it open, use sphere_map(), "
+            'or pass closed="cut".'
+        )
+    state = f"closed, of genus {genus}: it has no boundary" if closed else f"of genus {genus}; a disk has no handles"
+    return TopologyError(f'The chart is {state}. Mark seams that cut it open, or pass closed="cut".')
+
+
+def _one_chart(surface: CutSurface, one: Ints, other: Ints, rim: Ints) -> OneChart:
+    site, follow, polygon = surface.site, surface.follow, surface.polygon
+    ends = np.concatenate((site[one], site[follow[one]], site[rim], site[follow[rim]]))
+    sites, ends = np.unique(ends, return_inverse=True)
+    tail, head, rim_tail, rim_head = np.split(ends, np.cumsum([len(one), len(one), len(rim)]))
+    polygons, faces = np.unique(np.concatenate((polygon[one], polygon[other])), return_inverse=True)
+    left, right = np.split(faces, 2)
+    lengths = surface.side_lengths(one)
+    return OneChart(tail, head, left, right, lengths, rim_tail, rim_head, len(sites), len(polygons))
