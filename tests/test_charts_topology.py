@@ -13,7 +13,7 @@ from conformal_uv import (
     OrientationError,
     TopologyError,
 )
-from conformal_uv.charts import unwrap
+from conformal_uv.charts import cut_graph, unwrap
 from conformal_uv.mesh.surface import Surface
 
 CLOSED = {
@@ -64,6 +64,8 @@ def test_closed_pieces_are_cut_into_one_disk(name):
     sides = {tuple(sorted(e)) for e in sides_of(Q).tolist()}
     loop = chart.vertices[chart.map.boundary]
     assert {tuple(sorted(e)) for e in np.column_stack((loop, np.roll(loop, -1))).tolist()} <= sides
+    if genus:  # no loose ends
+        assert np.isin(loop, vertices[copies > 1]).all()
     for v in vertices[copies > 1]:
         z = chart.map.uv[np.flatnonzero(chart.vertices == v)] @ [1, 1j]
         assert np.unique(np.round(z, 12)).size == z.size
@@ -197,3 +199,17 @@ def test_seams_in_a_grid_cut_it_into_cells():
     assert all(len(chart.faces) == 4 for chart in u.charts)
     assert [chart.faces[0] for chart in u.charts] == sorted(chart.faces[0] for chart in u.charts)
     assert edge_count(Q)[(14, 15)] == 2
+
+
+@pytest.mark.parametrize("name", ["torus", "ring", "two rings", "three rings"])
+def test_a_cut_graph_has_no_loose_ends_wherever_it_grows_from(name, monkeypatch):
+    monkeypatch.setattr(cut_graph, "MOST_ROOTS", 1)
+    V, Q, _ = CLOSED[name]
+    for first in range(0, len(V), 5):
+        relabelled = (np.arange(len(V)) - first) % len(V)
+        W = np.empty_like(V)
+        W[relabelled] = V
+        chart = unwrap(W, relabelled[Q], closed="cut", method="linear", place="disk").charts[0]
+        vertices, copies = np.unique(chart.vertices, return_counts=True)
+        assert chart.map is not None
+        assert np.isin(chart.vertices[chart.map.boundary], vertices[copies > 1]).all()
