@@ -1,6 +1,7 @@
 """Conformal maps of triangle meshes onto the unit disk and the unit sphere."""
 
 from ._version import __version__
+from .charts import Chart, Unwrapped, Unwrapper, unwrap
 from .disk import DiskMap, DiskMapper, disk_map
 from .errors import (
     CancelledError,
@@ -33,6 +34,7 @@ from .operators import (
 
 __all__ = [
     "CancelledError",
+    "Chart",
     "ConformalUVError",
     "DegenerateFaceError",
     "DisconnectedError",
@@ -51,6 +53,8 @@ __all__ = [
     "SolverError",
     "TopologyError",
     "UnreferencedVertexError",
+    "Unwrapped",
+    "Unwrapper",
     "__version__",
     "cotangent_laplacian",
     "cotangent_laplacian_intrinsic",
@@ -60,4 +64,5 @@ __all__ = [
     "gradient",
     "mixed_voronoi_areas",
     "uniform_laplacian",
+    "unwrap",
 ]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from .errors import CancelledError
 
 __all__ = ["Callback", "Progress"]
@@ -25,5 +27,8 @@ class Progress:
         CancelledError
             The callback returned False.
         """
-        if self._callback is not None and self._callback(stage, fraction) is False:
+        if self._callback is None:
+            return
+        answer = self._callback(stage, float(fraction))
+        if isinstance(answer, bool | np.bool_) and not answer:
             raise CancelledError(f"Cancelled during {stage}; nothing was changed.")

@@ -47,7 +47,13 @@ def test_disk_writes_the_map_of_the_library_into_the_unit_square(surface: Path, 
     np.testing.assert_array_equal(written.corner_uv.reshape(-1, 3, 2), (0.5 + 0.5 * expected.uv)[F])
     numbers = json.loads((tmp_path / "out.json").read_text())
     assert numbers["conformal_energy"] == expected.conformal_energy
-    assert numbers["mesh"] == {"vertices": 1500, "triangles": len(F), "boundary_vertices": len(expected.boundary)}
+    assert numbers["mesh"] == {
+        "vertices": 1500,
+        "triangles": len(F),
+        "faces": len(F),
+        "mapped_faces": len(F),
+        "boundary_vertices": len(expected.boundary),
+    }
     assert numbers["angle_error_degrees"]["mean"] == expected.distortion.angle_mean
     assert numbers["flipped_faces"] == 0 and numbers["converged"] is True
     assert {"read", "checks", "assembly", "factorization", "newton", "distortion", "write"} <= set(numbers["seconds"])
@@ -190,3 +196,79 @@ def test_without_its_libraries_the_command_says_what_to_install():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and 'pip install "conformal-uv[cli]"' in done.stderr
+
+
+def plate(columns: int, rows: int, bend: float = 0.05) -> str:
+    """An OBJ of a bent plate of quadrangles."""
+    text = "".join(f"v {x} {y} {bend * x * x}\n" for y in range(rows + 1) for x in range(columns + 1))
+    for y in range(rows):
+        for x in range(columns):
+            a = y * (columns + 1) + x + 1
+            text += f"f {a} {a + 1} {a + columns + 2} {a + columns + 1}\n"
+    return text
+
+
+def test_several_pieces_become_charts_that_do_not_overlap(tmp_path: Path):
+    one = plate(4, 3)
+    shifted = "".join(f"v {10 + i} {i % 3} {i * i % 5}\n" for i in range(4))
+    (tmp_path / "two.obj").write_text(one + shifted + "f 21 22 23 24\n")
+    done = run("disk", tmp_path / "two.obj", tmp_path / "out.npz", "--json", tmp_path / "out.json")
+    assert "mapped 2 of 2 charts" in done.stdout and "chart 1" in done.stdout
+    uv = np.load(tmp_path / "out.npz")["corner_uv"]
+    assert uv.min() >= 0 and uv.max() <= 1
+    one, two = uv[:48], uv[48:]  # disks lie in squares of their own, so their boxes are apart
+    assert ((one.max(axis=0) < two.min(axis=0)) | (two.max(axis=0) < one.min(axis=0))).any()
+    assert [chart["status"] for chart in json.loads((tmp_path / "out.json").read_text())["charts"]] == ["mapped"] * 2
+
+
+def test_one_chart_that_fails_is_told_and_the_others_are_written(tmp_path: Path):
+    tetrahedron = "v 50 0 0\nv 51 0 0\nv 50 1 0\nv 50 0 1\nf 21 23 22\nf 21 22 24\nf 22 23 24\nf 21 24 23\n"
+    (tmp_path / "mixed.obj").write_text(plate(4, 3) + tetrahedron)
+    done = run("disk", tmp_path / "mixed.obj", tmp_path / "out.obj", check=1)
+    assert done.stderr.startswith("mapped 1 of 2 charts; chart 1 (faces 12, 13, 14, 15):")
+    written = read_mesh(tmp_path / "out.obj").corner_uv
+    assert np.isfinite(written[:48]).all() and np.isnan(written[48:]).all()
+
+
+def test_holes_are_filled_or_refused(tmp_path: Path):
+    lines = plate(5, 5).splitlines()
+    faces = [k for k, line in enumerate(lines) if line.startswith("f")]
+    del lines[faces[12]]  # the middle one
+    (tmp_path / "holed.obj").write_text("\n".join(lines))
+    run("disk", tmp_path / "holed.obj", tmp_path / "out.obj", "-q")
+    assert np.isfinite(read_mesh(tmp_path / "out.obj").corner_uv).all()
+    done = run("disk", tmp_path / "holed.obj", tmp_path / "no.obj", "--holes", "refuse", check=1)
+    assert done.stderr.startswith("TopologyError:") and not (tmp_path / "no.obj").exists()
+
+
+def test_a_closed_surface_is_cut_on_request(tmp_path: Path):
+    (tmp_path / "cube.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+    )
+    assert run("disk", tmp_path / "cube.obj", tmp_path / "out.obj", check=1).stderr.startswith("TopologyError:")
+    run("disk", tmp_path / "cube.obj", tmp_path / "out.obj", "--closed", "cut", "-q")
+    assert np.isfinite(read_mesh(tmp_path / "out.obj").corner_uv).all()
+
+
+def test_seams_from_a_file_and_from_torn_uvs(tmp_path: Path):
+    (tmp_path / "plate.obj").write_text(plate(4, 2))
+    (tmp_path / "seams.txt").write_text("# across the middle\n2 7\n7 12\n")
+    run("disk", tmp_path / "plate.obj", tmp_path / "cut.obj", "--seams", tmp_path / "seams.txt", "--json",
+        tmp_path / "a.json", "-q")  # fmt: skip
+    assert len(json.loads((tmp_path / "a.json").read_text())["charts"]) == 2
+    # The result is torn along the seam; its UVs are no seams unless asked for.
+    run("disk", tmp_path / "cut.obj", tmp_path / "whole.obj", "--json", tmp_path / "b.json", "-q")
+    assert len(json.loads((tmp_path / "b.json").read_text())["charts"]) == 1
+    run("disk", tmp_path / "cut.obj", tmp_path / "again.obj", "--seams", "uv", "--json", tmp_path / "c.json", "-q")
+    assert len(json.loads((tmp_path / "c.json").read_text())["charts"]) == 2
+    (tmp_path / "seams.txt").write_text("2 x\n")
+    done = run("disk", tmp_path / "plate.obj", tmp_path / "no.obj", "--seams", tmp_path / "seams.txt", check=1)
+    assert done.stderr.startswith("FileFormatError:")
+
+
+def test_crowding_is_warned_of(tmp_path: Path):
+    """A ribbon fifty times as long as wide: harmonic measure falls by exp(-pi) a width, below doubles at the ends."""
+    (tmp_path / "ribbon.obj").write_text(plate(100, 2, bend=0.0))
+    done = run("disk", tmp_path / "ribbon.obj", tmp_path / "out.obj", "--method", "linear")
+    assert "crowded" in done.stdout and "single precision" in done.stdout

@@ -125,7 +125,9 @@ class Unwrapper:
             boundary_vertex=None,
         )
 
-    def _assembled(self, solutions: list[ChartSolution], place: str, margin: float, rotation: float) -> Unwrapped:
+    def _assembled(
+        self, solutions: list[ChartSolution], place: str, margin: float | None, rotation: float
+    ) -> Unwrapped:
         """Place the disks and gather the corners' coordinates."""
         mapped = np.array([solution.map is not None for solution in solutions])
         image_area = np.array([0.5 * np.abs(solution.signed).sum() for solution in solutions])

@@ -93,7 +93,11 @@ def _uv_summary(mesh_file: MeshFile, corner_of: NDArray[np.int64]) -> dict[str, 
     corners = np.ascontiguousarray(corners[:, good])
     filled = np.nan_to_num(uv, nan=0.0)
     measured = distortion_of(triangle_geometry(positions, corners), corners, filled)
-    return {"triangles": corners.shape[1], **distortion_summary(measured)}
+    return {
+        "triangles": corners.shape[1],
+        **distortion_summary([measured]),
+        "flipped_faces": len(measured.flipped),
+    }
 
 
 def _print(summary: dict[str, Any]) -> None:

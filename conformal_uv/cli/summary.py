@@ -4,49 +4,80 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from .._version import __version__
+from ..charts import Chart, Unwrapped
 from ..disk import DiskMap
 from ..operators import Distortion
 
-__all__ = ["disk_summary", "distortion_summary", "print_rows", "print_summary"]
+__all__ = ["distortion_summary", "print_rows", "print_summary", "unwrapped_summary"]
 
-MOST_LISTED = 1000  # flipped faces written to JSON
+MOST_LISTED = 1000  # faces written to JSON
+MOST_CHARTS = 20  # rows printed
+INFINITE = float("inf")
 
 
-def distortion_summary(distortion: Distortion) -> dict[str, Any]:
-    """Angle error in degrees, quasi-conformal ratio and flips."""
+def distortion_summary(distortions: list[Distortion]) -> dict[str, Any]:
+    """Angle error in degrees and quasi-conformal ratio, over all triangles together."""
+    error = np.concatenate([d.angle_error.reshape(-1) for d in distortions])
+    ratio = np.concatenate([d.quasi_conformal for d in distortions])
     return {
-        "angle_error_degrees": {
-            "mean": distortion.angle_mean,
-            "sd": distortion.angle_sd,
-            "max": distortion.angle_max,
-        },
-        "quasi_conformal_ratio": {
-            "median": float(sorted(distortion.quasi_conformal)[len(distortion.quasi_conformal) // 2]),
-            "max": _finite(float(distortion.quasi_conformal.max())),
-        },
-        "flipped_faces": len(distortion.flipped),
-        "flipped": distortion.flipped[:MOST_LISTED].tolist(),
+        "angle_error_degrees": {"mean": float(error.mean()), "sd": float(error.std()), "max": float(error.max())},
+        "quasi_conformal_ratio": {"median": _finite(np.median(ratio)), "max": _finite(ratio.max())},
     }
 
 
-def disk_summary(result: DiskMap, source: str, target: str, seconds: dict[str, float]) -> dict[str, Any]:
-    """Everything that is told of a map to the disk."""
-    return {
+def unwrapped_summary(result: Unwrapped, source: str, target: str, seconds: dict[str, float]) -> dict[str, Any]:
+    """Everything that is told of an unwrapped mesh; with one chart its fields stand on top as well."""
+    charts = [_chart_summary(number, chart) for number, chart in enumerate(result.charts)]
+    done = [chart for chart in result.charts if chart.distortion is not None]
+    flipped = np.concatenate([chart.flipped for chart in done])
+    summary: dict[str, Any] = {
         "conformal_uv": __version__,
         "input": source,
         "output": target,
+        "summary": result.summary,
         "mesh": {
-            "vertices": result.surface.n,
-            "triangles": result.surface.m,
-            "boundary_vertices": len(result.boundary),
+            "triangles": sum(len(chart.F) for chart in result.charts),
+            "vertices": len(np.unique(np.concatenate([chart.vertices for chart in result.charts]))),
+            "faces": len(result.mapped),
+            "mapped_faces": int(result.mapped.sum()),
         },
+        **distortion_summary([chart.distortion for chart in done if chart.distortion is not None]),
+        "flipped_faces": len(flipped),
+        "flipped": flipped[:MOST_LISTED].tolist(),
+        "charts": charts,
+        "seconds": seconds,
+    }
+    if len(charts) == 1:
+        summary = {**charts[0], **summary}
+        summary["mesh"]["boundary_vertices"] = charts[0]["boundary_vertices"]
+    return summary
+
+
+def _chart_summary(number: int, chart: Chart) -> dict[str, Any]:
+    told: dict[str, Any] = {
+        "chart": number,
+        "faces": len(chart.faces),
+        "triangles": len(chart.F),
+        "status": chart.status,
+        "notes": chart.notes,
+    }
+    if chart.map is None or chart.distortion is None:
+        return {**told, "error": f"{type(chart.error).__name__}: {chart.error}"}
+    return {**told, **_map_summary(chart.map), **distortion_summary([chart.distortion])}
+
+
+def _map_summary(result: DiskMap) -> dict[str, Any]:
+    return {
+        "boundary_vertices": len(result.boundary),
         "method": result.method,
         "objective": result.objective,
+        "laplacian": result.laplacian,
         "backend": result.backend,
         "converged": result.converged,
         "center": result.center,
@@ -55,22 +86,28 @@ def disk_summary(result: DiskMap, source: str, target: str, seconds: dict[str, f
         "history": [dict(zip(row._fields, row, strict=True)) for row in result.history],
         "conformal_energy": result.conformal_energy,
         "dirichlet_energy": result.dirichlet_energy,
-        **distortion_summary(result.distortion),
-        "seconds": seconds,
+        "flipped_triangles": len(result.flipped),
+        "lost_to_double": len(result.lost_to_double),
+        "lost_to_float32": len(result.lost_to_float32),
+        "repair": vars(result.repair) if result.repair is not None else None,
     }
 
 
 def print_summary(summary: dict[str, Any]) -> None:
-    """The short table at the end of the command."""
+    """The short table at the end of the command; a row for each of several charts."""
     mesh, angle = summary["mesh"], summary["angle_error_degrees"]
-    rows = [
-        ("mesh", "{vertices} vertices, {triangles} triangles, {boundary_vertices} on the boundary".format(**mesh)),
-        ("method", f"{summary['method']}, {summary['objective']} energy, {summary['backend']}"),
-        ("iterations", _iterations(summary)),
-        ("conformal energy", f"{summary['conformal_energy']:.6g}"),
-        ("Dirichlet energy", f"{summary['dirichlet_energy']:.6g}"),
-        ("angle error", f"mean {angle['mean']:.4g}, sd {angle['sd']:.4g}, max {angle['max']:.4g} degrees"),
-        ("flipped faces", str(summary["flipped_faces"])),
+    charts = summary["charts"]
+    rows = [("mesh", f"{mesh['vertices']} vertices, {mesh['triangles']} triangles")]
+    if len(charts) == 1:
+        rows[0] = ("mesh", f"{rows[0][1]}, {mesh['boundary_vertices']} on the boundary")
+        rows += _map_rows(charts[0])
+    else:
+        rows += [("charts", summary["summary"])]
+        rows += [(f"chart {chart['chart']}", _chart_line(chart)) for chart in charts[:MOST_CHARTS]]
+        rows += [("", f"and {len(charts) - MOST_CHARTS} more")] if len(charts) > MOST_CHARTS else []
+    rows += [("angle error", _angles(angle)), ("flipped faces", str(summary["flipped_faces"]))]
+    rows += [("warning", text) for text in _warnings(charts)]
+    rows += [
         ("seconds", ", ".join(f"{stage} {spent:.2f}" for stage, spent in summary["seconds"].items())),
         ("output", summary["output"]),
     ]
@@ -87,18 +124,56 @@ def print_rows(rows: list[tuple[str, str]]) -> None:
     Console().print(table)
 
 
-def _iterations(summary: dict[str, Any]) -> str:
-    history = summary["history"]
+def _map_rows(chart: dict[str, Any]) -> list[tuple[str, str]]:
+    rows = [
+        ("method", "{method}, {objective} energy, {laplacian} Laplacian, {backend}".format(**chart)),
+        ("iterations", _iterations(chart)),
+        ("conformal energy", f"{chart['conformal_energy']:.6g}"),
+        ("Dirichlet energy", f"{chart['dirichlet_energy']:.6g}"),
+    ]
+    if chart["repair"] is not None:
+        told = "{flipped_before} folded triangles before, {flipped_after} after; {moved_vertices} vertices moved; "
+        told += "mean angle error {angle_mean_before:.4g} before, {angle_mean_after:.4g} after"
+        rows.append(("repair", told.format(**chart["repair"])))
+    return rows + [("note", note) for note in chart["notes"]]
+
+
+def _chart_line(chart: dict[str, Any]) -> str:
+    if chart["status"] == "failed":
+        return f"{chart['faces']} faces, not mapped"
+    text = f"{chart['faces']} faces; {_iterations(chart)}; energy {chart['conformal_energy']:.4g}; angle error "
+    text += _angles(chart["angle_error_degrees"])
+    return "; ".join([text, *chart["notes"]])
+
+
+def _angles(angle: dict[str, float]) -> str:
+    return "mean {mean:.4g}, sd {sd:.4g}, max {max:.4g} degrees".format(**angle)
+
+
+def _iterations(chart: dict[str, Any]) -> str:
+    history = chart["history"]
     if not history:
-        return "none needed"
+        return "no iterations needed"
     last = history[-1]
     if "gradient_norm" in last:
         steps = sum(row["cg_steps"] for row in history)
         text = f"{len(history) - 1} Newton, {steps} CG; projected gradient {last['gradient_norm']:.2g}"
     else:
         text = f"{len(history)}; constraints {last['constraint_norm']:.2g}"
-    return text if summary["converged"] else f"{text} - NOT CONVERGED"
+    return text if chart["converged"] else f"{text} - NOT CONVERGED"
+
+
+def _warnings(charts: list[dict[str, Any]]) -> list[str]:
+    """Faces too small for doubles or for the single precision in which programs keep UVs."""
+    double = sum(chart.get("lost_to_double", 0) for chart in charts)
+    single = sum(chart.get("lost_to_float32", 0) for chart in charts)
+    told = []
+    if double:
+        told.append(f"crowded: {double} triangles are too small in the disk for double precision")
+    if single > double:
+        told.append(f"crowded: {single} triangles vanish where UVs are kept in single precision; cut the surface")
+    return told
 
 
 def _finite(value: float) -> float | None:
-    return value if value < float("inf") else None
+    return float(value) if value < INFINITE else None

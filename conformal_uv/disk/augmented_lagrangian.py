@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import block_diag, csc_array, csr_array, diags_array
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from ..errors import SolverError
 from ..progress import Progress
@@ -159,7 +159,7 @@ def augmented_lagrangian(
         c = problem.constraints(x)
         norm = float(np.linalg.norm(c))
         history.append(AugmentedLagrangianStep(rho, norm, _kkt(problem, before, y)))
-        progress("augmented lagrangian", min(1.0, np.log(max(norm, STOP)) / np.log(STOP)))
+        progress("augmented lagrangian", float(np.clip(np.log(max(norm, STOP)) / np.log(STOP), 0.0, 1.0)))
         if norm < 1e-3 / 2.0**updates:
             y = y - rho * c
             updates += 1
@@ -182,11 +182,16 @@ def _minimise(problem: ConstrainedProblem, x: Real, y: Real, rho: float, toleran
         if np.linalg.norm(gradient) < tolerance:
             break
         try:
-            step = splu(problem.hessian(x, y, rho), permc_spec="MMD_AT_PLUS_A").solve(-gradient)
+            step = _factorized(problem.hessian(x, y, rho)).solve(-gradient)
         except RuntimeError as error:
             raise SolverError(f"An inner Newton system of the augmented Lagrangian is singular ({error}).") from error
         x = _backtrack(problem, x, y, rho, step, float(gradient @ step))
     return x
+
+
+def _factorized(hessian: csc_array) -> SuperLU:
+    """LU factors with pivoting for size in an ordering for a symmetric pattern."""
+    return splu(hessian, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
 
 
 def _backtrack(problem: ConstrainedProblem, x: Real, y: Real, rho: float, step: Real, slope: float) -> Real:

@@ -89,7 +89,8 @@ def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]
     lengths : (nb,)
         Of the boundary edge from each vertex to the next.
     """
-    density = measure / (lengths + np.roll(lengths, 1))
+    around = lengths + np.roll(lengths, 1)
+    density = measure / np.where(around > 0.0, around, 1.0)
     on_edge = lengths * (density + np.roll(density, -1))
     total = np.cumsum(on_edge)
     return 2.0 * np.pi * np.concatenate(([0.0], total[:-1] / total[-1]))

@@ -17,7 +17,7 @@ from ..progress import Callback, Progress
 from .harmonic_measure import CentredMeasure, centred_measure
 from .options import DiskOptions
 from .placement import place_center, place_pins
-from .repair import repaired
+from .repair import recentred, repaired
 from .result import DiskMap, disk_map_result
 from .solution import Solution, solve_augmented_lagrangian, solve_linear, solve_newton
 
@@ -99,10 +99,12 @@ class DiskMapper:
             log.warning("%s stopped before its tolerance, after %d rows", method, len(solution.history))
         progress("placement", 0.0)
         z, center = self._placed(solution, options)
-        z = np.where(np.abs(z) > 1.0, z / np.maximum(np.abs(z), 1.0), z)  # rounding of an ill-conditioned solution
+        z = _inside(z)
         folded, exhausted = z, False
         if options.repair == "auto" and options.method != "augmented-lagrangian":
             z, exhausted = repaired(self.surface, z, self.boundary, progress)
+            z = _inside(recentred(z, center, self.surface.corners)) if z is not folded else z
+            center = center if center is not None and z[center] == 0.0 else None
         result = disk_map_result(self.surface, solution, options, z, folded, exhausted, center, self.backend)
         progress("placement", 1.0)
         return result
@@ -146,3 +148,9 @@ class DiskMapper:
             center = solution.center  # where crowding has not swept it onto the circle
         first = int(self.boundary[0]) if options.boundary_vertex is None else options.boundary_vertex
         return place_center(solution.problem, corners, solution.z, center, first), center
+
+
+def _inside(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """z with what rounding, large in an ill-conditioned solution, has put outside the disk back on the circle."""
+    size = np.abs(z)
+    return np.where(size > 1.0, z / np.maximum(size, 1.0), z)

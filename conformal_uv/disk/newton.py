@@ -111,7 +111,7 @@ def minimise_boundary_energy(
         history.append(NewtonStep(energy.value, norm, cg_steps, step_length))
         energy = better
     history.append(NewtonStep(energy.value, norm, 0, 0.0))
-    return NewtonResult(energy, tuple(history), norm <= tolerance)
+    return NewtonResult(energy, tuple(history), bool(norm <= tolerance))
 
 
 def _newton_direction(

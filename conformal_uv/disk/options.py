@@ -76,8 +76,8 @@ class DiskOptions:
             other.
         """
         report = method == "augmented-lagrangian"
-        objective = objective or ("dirichlet" if report else "conformal")
-        pin_mode = pin_mode or ("constraint" if report else "moebius")
+        objective = ("dirichlet" if report else "conformal") if objective is None else objective
+        pin_mode = ("constraint" if report else "moebius") if pin_mode is None else pin_mode
         given = {"method": method, "objective": objective, "pin_mode": pin_mode, "repair": repair}
         for name, value in given.items():
             if value not in CHOICES[name]:
@@ -86,9 +86,8 @@ class DiskOptions:
             raise OptionError('The augmented Lagrangian takes its pins as constraints; leave pin_mode out.')
         if method == "linear" and pin_mode == "constraint":
             raise OptionError('The linear method does not optimise; it takes pins only with pin_mode="moebius".')
-        if not tolerance > 0 or max_iterations < 0:
-            raise OptionError("tolerance must be positive and max_iterations not negative.")
-        pinned = _pins(pins, loop, default=report or pin_mode == "constraint")
+        tolerance, max_iterations = _limits(tolerance, max_iterations)
+        pinned = _pins(pins, loop, surface.n, default=report or pin_mode == "constraint")
         if pinned is not None and (center is not None or boundary_vertex is not None):
             raise OptionError("Three pins already fix the map; leave out center and boundary_vertex.")
         if center is not None:
@@ -106,8 +105,8 @@ class DiskOptions:
             pin_mode,  # type: ignore[arg-type]
             center,
             boundary_vertex,
-            float(tolerance),
-            int(max_iterations),
+            tolerance,
+            max_iterations,
             repair,
         )
 
@@ -122,7 +121,19 @@ def _vertex(name: str, value: int, n: int) -> int:
     return vertex
 
 
-def _pins(pins: Sequence[int] | None, loop: NDArray[np.int64], *, default: bool) -> tuple[int, int, int] | None:
+def _limits(tolerance: float, max_iterations: int) -> tuple[float, int]:
+    try:
+        norm, most = float(tolerance), index(max_iterations)
+    except (TypeError, ValueError) as error:
+        raise OptionError(f"tolerance is {tolerance!r}, max_iterations {max_iterations!r}; pass numbers.") from error
+    if not 0.0 < norm < np.inf or most < 0:
+        raise OptionError(f"tolerance must be positive and max_iterations not negative; got {norm} and {most}.")
+    return norm, most
+
+
+def _pins(
+    pins: Sequence[int] | None, loop: NDArray[np.int64], n: int, *, default: bool
+) -> tuple[int, int, int] | None:
     """Three boundary vertices in the order of the loop; by default those a third of its vertices apart."""
     nb = len(loop)
     if pins is None:
@@ -130,10 +141,13 @@ def _pins(pins: Sequence[int] | None, loop: NDArray[np.int64], *, default: bool)
             return None
         first, second, third = (int(loop[k]) for k in (0, nb // 3, 2 * (nb // 3)))
         return first, second, third
-    values = list(pins)
+    try:
+        values = list(pins)
+    except TypeError as error:
+        raise OptionError(f"pins is {pins!r}; pass three boundary vertices.") from error
     if len(values) != 3:
         raise OptionError(f"{len(values)} pins; pass three boundary vertices.")
-    a, b, c = (_vertex("pins", v, int(loop.max()) + 1) for v in values)
+    a, b, c = (_vertex("pins", v, n) for v in values)
     place = [np.flatnonzero(loop == v) for v in (a, b, c)]
     outside = [v for v, found in zip((a, b, c), place, strict=True) if not len(found)]
     if outside:

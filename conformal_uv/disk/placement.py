@@ -9,6 +9,7 @@ from ..errors import SolverError
 from ..operators.dirichlet import DirichletProblem
 from ..operators.moebius import Moebius
 from ..operators.wirtinger import planar_sides, signed_double_areas
+from .gauge import CentreGauge
 
 __all__ = ["CUBE_ROOTS", "place_center", "place_pins"]
 
@@ -28,14 +29,10 @@ def place_center(
             f"Vertex {center} comes to lie on the circle: seen from there the rest of the surface is too small for "
             "doubles. Choose a center farther from the boundary."
         )
-    placed = _moved(problem, corners, z, Moebius.to_zero(p, z[boundary_vertex]))
+    placed = _pointwise(problem, z, Moebius.to_zero(p, z[boundary_vertex]))
+    if p != 0.0 and center is not None and _flips(placed, corners) > _flips(z, corners):
+        placed = _extended_about(problem, z, placed, center, boundary_vertex)
     if center is not None:
-        # Where harmonic extension had to replace the moved interior, the centre is off by a little.
-        for _ in range(20):
-            if abs(placed[center]) < 1e-14:
-                break
-            step = Moebius.to_zero(complex(placed[center]), placed[boundary_vertex])
-            placed = problem.extend(_on_circle(step(placed[problem.boundary])))
         placed[center] = 0.0
     placed[boundary_vertex] = 1.0
     return placed
@@ -46,26 +43,41 @@ def place_pins(
 ) -> Complex:
     """The map with the three pins at the cube roots of unity."""
     at = list(pins)
-    placed = _moved(problem, corners, z, Moebius.from_three_pairs(z[at], CUBE_ROOTS))
+    placed = _pointwise(problem, z, Moebius.from_three_pairs(z[at], CUBE_ROOTS))
     placed[at] = CUBE_ROOTS
+    if _flips(placed, corners) > _flips(z, corners):
+        extended = problem.extend(placed[problem.boundary])
+        placed = extended if _flips(extended, corners) < _flips(placed, corners) else placed
     return placed
 
 
-def _moved(
-    problem: DirichletProblem, corners: NDArray[np.int32], z: Complex, moebius: Moebius
-) -> Complex:
+def _pointwise(problem: DirichletProblem, z: Complex, moebius: Moebius) -> Complex:
     """z after a map of the disk onto itself, vertex by vertex.
 
-    Straight edges stand in for the arcs to which the map bends them, so large triangles can fold where it
-    shrinks strongly; then the boundary alone is moved and extended harmonically.
+    Straight edges stand in for the arcs to which the map bends them, so large triangles can fold where it shrinks
+    strongly. The harmonic extension of the moved boundary is the other way, and needs two back-substitutions.
     """
     moved = moebius(z)
     moved[problem.boundary] = _on_circle(moved[problem.boundary])
-    rotation = abs(moebius.b) == 0.0 and abs(moebius.c) == 0.0
-    if rotation or _flips(moved, corners) <= _flips(z, corners):
-        return moved
-    extended = problem.extend(moved[problem.boundary])
-    return extended if _flips(extended, corners) < _flips(moved, corners) else moved
+    return moved
+
+
+def _extended_about(
+    problem: DirichletProblem, z: Complex, placed: Complex, center: int, boundary_vertex: int
+) -> Complex:
+    """The harmonic extension of the boundary moved so that the center's mean of it, by harmonic measure, is 0.
+
+    Where one boundary vertex has half the measure or more no map of the disk brings the mean to 0; then it is
+    `placed`, the map moved vertex by vertex.
+    """
+    measure = problem.harmonic_measure(center)
+    if measure.max() >= 0.5:
+        return placed
+    theta = np.angle(z[problem.boundary])
+    theta = theta[0] + np.concatenate(([0.0], np.cumsum(np.mod(np.diff(theta), 2.0 * np.pi))))
+    theta = CentreGauge(measure, theta).restore(theta)
+    first = int(np.flatnonzero(problem.boundary == boundary_vertex)[0])
+    return problem.extend(np.exp(1j * (theta - theta[first])))
 
 
 def _on_circle(zb: Complex) -> Complex:

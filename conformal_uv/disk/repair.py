@@ -1,9 +1,9 @@
 """Restoring an embedding where original triangles came out folded.
 
-Around the folds the vertices are placed anew by positive weights (mean value), everything else held where it is.
-Where folds remain the patch grows; when it takes in the whole interior, all weights are positive and the boundary is
-convex, so Tutte's theorem leaves no fold but those that doubles can not resolve. Uniform weights, which crowd the
-least, have the last try.
+Around the folds vertices are placed at means of their neighbours by positive weights: the map's own mean value weights,
+which hold unfolded parts where they are. Where folds remain the patch grows; when it takes in the whole interior,
+Tutte's theorem leaves no fold but those that doubles can not resolve. Uniform weights, which crowd the least, have
+the last try.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import splu
 
-from ..mesh.geometry import TriangleGeometry, triangle_geometry
+from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
-from ..operators.laplacian import intrinsic_geometry
-from ..operators.mean_value import mean_value_matrix
-from ..operators.mollification import mollified
+from ..operators.mean_value import positive_mean_value_matrix
+from ..operators.moebius import Moebius
 from ..operators.orientation_sign import orientation_signs
 from ..progress import Progress
 
-__all__ = ["Repair", "flipped_faces", "repaired", "unresolved_faces"]
+__all__ = ["Repair", "flipped_faces", "recentred", "repaired", "unresolved_faces"]
 
 Complex = NDArray[np.complex128]
 
+FIRST_RINGS = 1  # of the patch around a fold
 RESOLUTION = 16.0 * np.finfo(np.float64).eps  # of a position in the disk, with a few operations behind it
 
 
@@ -84,24 +84,38 @@ def repaired(
         return z, False
     inside = np.ones(n, dtype=bool)
     inside[boundary] = False
-    geometry = _safe_geometry(surface)
-    patch = np.zeros(n, dtype=bool)
     candidates = [(len(folds), z)]
-    rings = 1
-    while len(folds) and not patch[inside].all():
-        progress("repair", min(0.99, patch.sum() / max(inside.sum(), 1)))
-        patch |= _ball(corners, folds, rings, n) & inside
-        moved = _placed(mean_value_matrix(corners, geometry, n, _touching(corners, patch)), z, patch)
-        folds = _folds(moved, corners)
-        candidates.append((len(folds), moved))
-        rings *= 2
+    most = len(folds)
+    rings, whole = FIRST_RINGS, False
+    while len(folds) and not whole:
+        progress("repair", min(0.99, 1.0 - len(folds) / (most + 1)))
+        patch = _ball(corners, folds, rings, n) & inside
+        whole = bool(patch[inside].all())
+        moved = _untangled(z, corners, patch)
+        left = _folds(moved, corners)
+        if len(left) < len(folds):
+            z, folds = moved, left
+            candidates.append((len(folds), z))
+        else:
+            rings *= 2
     if len(folds) and inside.any():
-        moved = _placed(_adjacency(surface), z, inside)
+        moved = _placed(_adjacency(surface), candidates[0][1], inside)
         candidates.append((len(_folds(moved, corners)), moved))
     fewest, best = min(candidates, key=lambda candidate: candidate[0])
     if 2 * fewest > candidates[0][0]:  # little to be had for all the angles that it would cost
-        return z, True
+        return candidates[0][1], True
     return best, fewest > 0
+
+
+def recentred(z: Complex, center: int | None, corners: NDArray[np.int32]) -> Complex:
+    """z with the vertex that was at 0 back there, where that can be without folding anything."""
+    if center is None or z[center] == 0.0 or not abs(z[center]) < 1.0 or len(flipped_faces(z, corners)):
+        return z
+    on_circle = np.abs(z) >= 1.0 - 1e-12
+    moved = Moebius.to_zero(complex(z[center]), 1.0)(z)  # 1 is where the boundary vertex is, and stays
+    moved[on_circle] /= np.abs(moved[on_circle])
+    moved[z == 1.0], moved[center] = 1.0, 0.0
+    return z if len(flipped_faces(moved, corners)) else moved
 
 
 def _folds(z: Complex, corners: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -121,8 +135,12 @@ def _ball(corners: NDArray[np.int32], faces: NDArray[np.int64], rings: int, n: i
     return near
 
 
-def _touching(corners: NDArray[np.int32], patch: NDArray[np.bool_]) -> NDArray[np.int64]:
-    return np.flatnonzero(patch[corners].any(axis=0))
+def _untangled(z: Complex, corners: NDArray[np.int32], patch: NDArray[np.bool_]) -> Complex:
+    """z with the patch placed by its positive mean value weights."""
+    folded = np.zeros(len(z), dtype=bool)
+    folded[corners[:, flipped_faces(z, corners)]] = True
+    faces = np.flatnonzero(patch[corners].any(axis=0))
+    return _placed(positive_mean_value_matrix(z, corners, faces, folded), z, patch)
 
 
 def _placed(weights: csr_array, z: Complex, patch: NDArray[np.bool_]) -> Complex:
@@ -145,13 +163,6 @@ def _adjacency(surface: Surface) -> csr_array:
     lo, hi = surface.edges.lo, surface.edges.hi
     ends = np.concatenate((lo, hi)), np.concatenate((hi, lo))
     return csr_array((np.ones(2 * len(lo)), ends), shape=(surface.n, surface.n))
-
-
-def _safe_geometry(surface: Surface) -> TriangleGeometry:
-    """Geometry in which every face has area."""
-    if not len(surface.degenerate):
-        return surface.geometry
-    return intrinsic_geometry(mollified(np.sqrt(np.maximum(surface.geometry.squared_lengths, 0.0))))
 
 
 def _points(z: Complex) -> NDArray[np.float64]:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DegenerateFaceError, MeshError, NonFiniteError, UnreferencedVertexError, listed
 
-__all__ = ["check_referenced", "face_array", "vertex_array"]
+__all__ = ["check_referenced", "face_array", "scaled", "vertex_array"]
 
 MOST_VERTICES = 2**31 - 1
 
@@ -24,8 +24,8 @@ def vertex_array(V: ArrayLike) -> NDArray[np.float64]:
     """
     try:
         raw = np.asarray(V)
-        if raw.dtype.kind == "c":
-            raise TypeError("complex numbers")
+        if raw.dtype.kind not in "biuf" and raw.size:
+            raise TypeError("complex numbers" if raw.dtype.kind == "c" else f"dtype {raw.dtype}")
         array = np.ascontiguousarray(raw, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise MeshError(f"V is not an array of numbers ({error}); pass vertices as (n, 3) floats.") from error
@@ -111,3 +111,9 @@ def check_referenced(corners: NDArray[np.int32], n: int) -> None:
         raise UnreferencedVertexError(
             f"{len(bad)} of {n} vertices belong to no face: vertices {listed(bad)}. Remove them.", bad
         )
+
+
+def scaled(V: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+    """V over a power of two, and that power: an exact operation that keeps squares from overflowing."""
+    _, exponent = np.frexp(max(V.max(), -V.min()))
+    return np.ldexp(V, -exponent), float(np.ldexp(1.0, min(exponent, 1023)))

@@ -40,6 +40,7 @@ def half_edges(corners: NDArray[np.int32], n: int) -> HalfEdges:
     """Pair the half-edges of the faces ``corners`` (3, m) over n vertices."""
     tail = corners.reshape(-1)
     head = corners[[1, 2, 0]].reshape(-1)
+    n = int(n)
     key = np.minimum(tail, head).astype(np.int64)
     key *= n
     key += np.maximum(tail, head)

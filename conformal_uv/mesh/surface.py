@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DisconnectedError, NonManifoldError, TopologyError, listed
-from .arrays import check_referenced, face_array, vertex_array
+from .arrays import check_referenced, face_array, scaled, vertex_array
 from .geometry import TriangleGeometry, triangle_geometry
 from .halfedges import HalfEdges, half_edges
 from .loops import boundary_loops
@@ -88,7 +88,7 @@ class Surface:
         if len(loops) + euler != 2 or len(loops) > 1 or not is_face_connected(corners, edges):
             check_fans(corners, edges, n)
             pieces, _ = face_components(corners, n)
-        vertices, unit = _scaled(vertices)
+        vertices, unit = scaled(vertices)
         geometry = triangle_geometry(vertices, corners)
         return cls(vertices, corners, edges, geometry, loops, degenerate_faces(geometry), pieces, unit)
 
@@ -152,12 +152,6 @@ class Surface:
     def loop_length(self, loop: NDArray[np.int64]) -> float:
         """Length of a closed polygon of vertices, in the scaled units."""
         return float(np.linalg.norm(self.V[loop] - self.V[np.roll(loop, -1)], axis=1).sum())
-
-
-def _scaled(V: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """V over a power of two, and that power: an exact operation that keeps squares from overflowing."""
-    _, exponent = np.frexp(max(V.max(), -V.min()))
-    return np.ldexp(V, -exponent), float(np.ldexp(1.0, min(exponent, 1023)))
 
 
 def _check_boundary(corners: NDArray[np.int32], edges: HalfEdges, n: int) -> None:

@@ -72,7 +72,13 @@ def distortion(V: ArrayLike, F: ArrayLike, image: ArrayLike) -> Distortion:
     """
     vertices = vertex_array(V)
     corners = face_array(F, len(vertices))
-    positions = np.asarray(image, dtype=np.float64)
+    try:
+        raw = np.asarray(image)
+        if raw.dtype.kind not in "biuf":
+            raise TypeError(f"dtype {raw.dtype}")
+        positions = raw.astype(np.float64)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"The image is not an array of real numbers ({error}); pass (n, 2) or (n, 3).") from error
     if positions.ndim != 2 or positions.shape[1] not in (2, 3) or len(positions) != len(vertices):
         raise MeshError(
             f"The image has shape {positions.shape}; pass ({len(vertices)}, 2) or ({len(vertices)}, 3)."

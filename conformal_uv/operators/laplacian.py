@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from ..mesh.arrays import face_array, vertex_array
+from ..errors import MeshError
+from ..mesh.arrays import face_array, scaled, vertex_array
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
 from ..mesh.halfedges import HalfEdges, half_edges
 from ..mesh.manifold import check_areas
@@ -43,7 +44,7 @@ def cotangent_laplacian(V: ArrayLike, F: ArrayLike) -> csr_array:
     MeshError
         On arrays that are not a mesh; DegenerateFaceError on faces without area.
     """
-    vertices = vertex_array(V)
+    vertices, _ = scaled(vertex_array(V))  # the matrix is the same in any unit
     corners = face_array(F, len(vertices))
     return _matrix(triangle_geometry(vertices, corners), corners, len(vertices))
 
@@ -68,9 +69,10 @@ def cotangent_laplacian_intrinsic(lengths: ArrayLike, F: ArrayLike, n: int | Non
     MeshError
         DegenerateFaceError where lengths break the triangle inequality or leave no area.
     """
-    count = int(np.max(F)) + 1 if n is None else n
-    corners = face_array(F, count)
-    opposite = np.ascontiguousarray(np.asarray(lengths, dtype=np.float64).T)
+    corners, count = _counted(F, n)
+    opposite = np.ascontiguousarray(vertex_array(lengths).T)
+    if opposite.shape != corners.shape or opposite.min() < 0.0:
+        raise MeshError(f"lengths must be ({corners.shape[1]}, 3) and not negative, one opposite to each corner.")
     return _matrix(intrinsic_geometry(opposite[[2, 0, 1]]), corners, count)
 
 
@@ -90,8 +92,8 @@ def intrinsic_geometry(lengths: NDArray[np.float64]) -> TriangleGeometry:
 
 def uniform_laplacian(F: ArrayLike, n: int | None = None) -> csr_array:
     """Graph Laplacian, all weights 1 (Tutte 1963), for faces F (m, 3) over n vertices."""
-    count = int(np.max(F)) + 1 if n is None else n
-    edges = half_edges(face_array(F, count), count)
+    corners, count = _counted(F, n)
+    edges = half_edges(corners, count)
     return laplacian_matrix(edges, uniform_weights(edges), count)
 
 
@@ -116,6 +118,13 @@ def laplacian_matrix(edges: HalfEdges, weights: NDArray[np.float64], n: int) -> 
     rows = np.concatenate((lo, hi, diagonal))
     columns = np.concatenate((hi, lo, diagonal))
     return csr_array((np.concatenate((-weights, -weights, degree)), (rows, columns)), shape=(n, n))
+
+
+def _counted(F: ArrayLike, n: int | None) -> tuple[NDArray[np.int32], int]:
+    """Faces (3, m), and the number of vertices: the largest index plus one where it is not given."""
+    most = 2**31 - 1
+    corners = face_array(F, most if n is None else int(n))
+    return corners, int(corners.max()) + 1 if n is None else int(n)
 
 
 def _matrix(geometry: TriangleGeometry, corners: NDArray[np.int32], n: int) -> csr_array:
