@@ -1,0 +1,30 @@
+"""Conformal Disk Unwrap, a Blender extension: UV islands mapped onto disks with their angles kept.
+
+All mathematics is in the package conformal_uv, which the extension brings as a wheel.
+"""
+
+import bpy
+
+from . import command, last_result, menus, operators, panel
+
+MODULES = (operators, panel, menus, command)
+
+
+@bpy.app.handlers.persistent
+def forget(*_):
+    """Another file: nothing of the last one is shown or kept."""
+    last_result.forget()
+    command.forget_work()
+
+
+def register():
+    for module in MODULES:
+        module.register()
+    bpy.app.handlers.load_post.append(forget)
+
+
+def unregister():
+    bpy.app.handlers.load_post.remove(forget)
+    for module in reversed(MODULES):
+        module.unregister()
+    forget()

@@ -1,0 +1,157 @@
+"""`blender --command conformal_uv IN.blend -o OUT.blend`: meshes of a file unwrapped without a window."""
+
+import argparse
+import json
+import math
+import sys
+from pathlib import Path
+
+import bpy
+
+from .libraries import missing_library
+from .properties import CENTERS, CLOSED, DEFAULTS, METHODS, PLACES, Options
+
+NAME = "conformal_uv"
+DONE, PARTLY, USAGE = 0, 1, 2  # exit codes
+
+_handles = []
+
+
+def run(argv):
+    """Read the arguments, unwrap, save.
+
+    Returns
+    -------
+    int
+        0: every island was unwrapped; 1: some were not, or a file can not be used; 2: wrong usage.
+    """
+    try:
+        arguments = parser().parse_args(argv)
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else USAGE
+    why = missing_library()
+    if why:
+        return _failed(why)
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(Path(arguments.input).resolve()))
+    except RuntimeError as error:
+        return _failed(f"{arguments.input}: {error}")
+    objects, unknown = _objects(arguments.object)
+    if unknown:
+        return _failed(f"{arguments.input} has no mesh object named {', '.join(unknown)}")
+    if not objects:
+        return _failed(f"{arguments.input} has no mesh object")
+    return _unwrap_and_save(arguments, objects)
+
+
+def parser():
+    """The command's arguments."""
+    given = argparse.ArgumentParser(
+        prog=f"blender --command {NAME}",
+        description="Unwrap the meshes of a .blend file onto disks, keeping angles.",
+        epilog="Exit code 0: every island was unwrapped; 1: some were not, or a file can not be used; 2: wrong usage.",
+    )
+    given.add_argument("input", metavar="IN.blend")
+    given.add_argument("-o", "--output", metavar="OUT.blend", required=True)
+    given.add_argument(
+        "--object", action="append", metavar="NAME", help="only this object; may be given again (default: every mesh)"
+    )
+    given.add_argument("--json", metavar="REPORT", help="write the numbers to this file")
+    for name, items, default in (
+        ("method", METHODS, DEFAULTS.method),
+        ("closed", CLOSED, DEFAULTS.closed),
+        ("place", PLACES, DEFAULTS.place),
+        ("center", CENTERS, DEFAULTS.center),
+    ):
+        names = [_spelled(identifier) for identifier, _, _ in items]
+        given.add_argument(f"--{name}", choices=names, default=_spelled(default))
+    given.add_argument("--rotation", type=float, default=0.0, metavar="DEGREES")
+    given.add_argument("--margin", type=float, default=DEFAULTS.margin)
+    given.add_argument("--uv-layer", default=DEFAULTS.uv_layer, metavar="NAME", help="default: the active one")
+    given.add_argument("--pins", action="store_true", help="three pinned UVs on an island's boundary are its pins")
+    given.add_argument("--subsurf", action="store_true", help="map the subdivided surface")
+    given.add_argument("--selected", action="store_true", help="only faces that are selected in the file")
+    given.add_argument("--no-fill-holes", action="store_true")
+    given.add_argument("--no-repair", action="store_true")
+    return given
+
+
+def forget_work():
+    """Drop factorizations that are kept for the redo panel."""
+    kept_work = sys.modules.get(f"{__package__}.kept_work")
+    if kept_work is not None:
+        kept_work.KEPT.keep_only(set())
+
+
+def _objects(names):
+    """Objects to unwrap, those that share a mesh once, and names that no mesh object has."""
+    meshes = {ob.name: ob for ob in bpy.data.objects if ob.type == "MESH"}
+    wanted = list(meshes) if names is None else names
+    unique = {}
+    for name in wanted:
+        if name in meshes:
+            unique.setdefault(meshes[name].data, meshes[name])
+    return list(unique.values()), [name for name in wanted if name not in meshes]
+
+
+def _unwrap_and_save(arguments, objects):
+    from .unwrap_objects import unwrap_objects
+
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    result = unwrap_objects(bpy.context, objects, _options(arguments))
+    _tell(result.message)
+    for remark in result.remarks:
+        _tell(remark)
+    try:
+        if arguments.json:
+            report = {"input": arguments.input, "output": arguments.output, **result.as_dict()}
+            Path(arguments.json).write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+        if result.unwrapped:
+            bpy.ops.wm.save_as_mainfile(filepath=str(Path(arguments.output).resolve()))
+    except (OSError, RuntimeError) as error:
+        return _failed(str(error))
+    return DONE if result.complete else PARTLY
+
+
+def _options(arguments):
+    return Options(
+        method=_identifier(arguments.method),
+        fill_holes=not arguments.no_fill_holes,
+        use_subsurf_data=arguments.subsurf,
+        use_pins=arguments.pins,
+        center=_identifier(arguments.center),
+        rotation=math.radians(arguments.rotation),
+        repair=not arguments.no_repair,
+        closed=_identifier(arguments.closed),
+        place=_identifier(arguments.place),
+        margin=arguments.margin,
+        faces="SELECTED" if arguments.selected else "ALL",
+        uv_layer=arguments.uv_layer,
+    )
+
+
+def _spelled(identifier):
+    return identifier.lower().replace("_", "-")
+
+
+def _identifier(spelled):
+    return spelled.upper().replace("-", "_")
+
+
+def _tell(text):
+    sys.stdout.write(f"{text}\n")
+
+
+def _failed(text):
+    sys.stderr.write(f"{NAME}: {text}\n")
+    return PARTLY
+
+
+def register():
+    _handles.append(bpy.utils.register_cli_command(NAME, run))
+
+
+def unregister():
+    while _handles:
+        bpy.utils.unregister_cli_command(_handles.pop())

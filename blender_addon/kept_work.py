@@ -1,0 +1,122 @@
+"""Factorizations kept between calls, so that the redo panel asks the same ones again.
+
+Undo gives meshes new addresses, therefore work is found again by the content of the mesh.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from conformal_uv import Unwrapped, Unwrapper
+from conformal_uv.mesh.polygons import PolygonMesh
+from conformal_uv.progress import Callback
+
+from .mesh_io import MeshArrays, pinned_vertices
+from .properties import Options
+
+Key = tuple[bytes, bool, str]
+
+
+@dataclass(eq=False)
+class Surface:
+    """What is solved for one object.
+
+    Attributes
+    ----------
+    arrays : MeshArrays
+    chosen : (p,) bool
+        Faces to unwrap.
+    active : int or None
+        Vertex for the centre.
+    """
+
+    arrays: MeshArrays
+    chosen: np.ndarray
+    active: int | None
+    _digest: bytes = field(init=False, default=b"")
+
+    def key(self, options: Options) -> Key:
+        """What a factorization depends on."""
+        self._digest = self._digest or self.arrays.digest(self.chosen)
+        return self._digest, options.fill_holes, options.closed
+
+
+class KeptWork:
+    """The unwrappers of the last call, with the last result of each."""
+
+    def __init__(self) -> None:
+        self._unwrappers: dict[Key, Unwrapper] = {}
+        self._results: dict[Key, tuple[dict[str, Any], Unwrapped]] = {}
+
+    def unwrapped(
+        self, surface: Surface, options: Options, *, callback: Callback | None = None, backend: str = "auto"
+    ) -> Unwrapped:
+        """The charts of the surface in the unit square, or on unit disks where Blender is to pack them.
+
+        `backend` counts when there is no factorization yet. Errors are those of `conformal_uv.unwrap`.
+        """
+        key, asked = surface.key(options), _call(surface, options)
+        kept = self._results.get(key)
+        if kept is not None and kept[0] == {**asked, "place": options.place}:
+            return kept[1]
+        unwrapper = self._unwrappers.get(key)
+        if unwrapper is None:
+            unwrapper = _unwrapper(surface, options, callback, backend)
+            self._unwrappers[key] = unwrapper
+        result = unwrapper.unwrap(**asked, place="disk", callback=callback)
+        if options.place == "FIT" and sum(chart.map is not None for chart in result.charts) > 1:
+            result = unwrapper.unwrap(**asked, place="fit", callback=callback)
+        self._results[key] = {**asked, "place": options.place}, result
+        return result
+
+    def fork(self) -> KeptWork:
+        """The same work, what is added to it being the fork's own."""
+        fork = KeptWork()
+        fork.adopt(self)
+        return fork
+
+    def adopt(self, other: KeptWork) -> None:
+        """Keep what `other` keeps, too."""
+        self._unwrappers.update(other._unwrappers)
+        self._results.update(other._results)
+
+    def keep_only(self, keys: set[Key]) -> None:
+        """Forget everything else."""
+        for kept in (self._unwrappers, self._results):
+            for key in set(kept) - keys:
+                del kept[key]
+
+
+KEPT = KeptWork()
+
+
+def _unwrapper(surface: Surface, options: Options, callback: Callback | None, backend: str) -> Unwrapper:
+    arrays = surface.arrays
+    mesh = PolygonMesh(
+        arrays.V.astype(np.float64), arrays.corners.astype(np.int64), arrays.starts.astype(np.int64)
+    )
+    return Unwrapper(
+        None,
+        mesh,
+        seams=arrays.seams,
+        selection=surface.chosen,
+        holes="fill" if options.fill_holes else "refuse",
+        closed=options.closed.lower(),
+        backend=backend,
+        callback=callback,
+    )
+
+
+def _call(surface: Surface, options: Options) -> dict[str, Any]:
+    """Options that a factorization does not depend on, as keywords of Unwrapper.unwrap."""
+    return {
+        "method": options.method.lower().replace("_", "-"),
+        "pins": pinned_vertices(surface.arrays, surface.chosen) if options.use_pins else None,
+        "center": surface.active if options.center == "ACTIVE" else None,
+        "rotation": options.rotation,
+        "repair": "auto" if options.repair else "never",
+        "margin": options.margin,
+    }

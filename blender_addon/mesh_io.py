@@ -1,0 +1,196 @@
+"""Blender meshes as arrays, and UVs back into them; nothing is decided here.
+
+Everything goes through foreach_get and foreach_set on attributes, whose arrays must be flat and of Blender's own
+types (float32, int32, bool).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from hashlib import blake2b
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+MOST_UV_LAYERS = 8
+DEFAULT_LAYER = "UVMap"
+
+
+@dataclass(frozen=True, eq=False)
+class MeshArrays:
+    """What an unwrap reads of a mesh.
+
+    Attributes
+    ----------
+    V : (n, 3) float32
+    corners : (k,) int32
+        Vertex of every corner.
+    starts : (p + 1,) int32
+        First corner of every face, and k.
+    seams : (s, 2) int32
+        Edges of faces that are marked as seams.
+    selected : (p,) bool
+    hidden : (p,) bool
+    pins : (q,) int32
+        Vertices of selected, visible faces whose UV is pinned.
+    """
+
+    V: NDArray[np.float32]
+    corners: NDArray[np.int32]
+    starts: NDArray[np.int32]
+    seams: NDArray[np.int32]
+    selected: NDArray[np.bool_]
+    hidden: NDArray[np.bool_]
+    pins: NDArray[np.int32]
+
+    def digest(self, chosen: NDArray[np.bool_]) -> bytes:
+        """A fingerprint of the surface, its seams and the chosen faces (p,)."""
+        hashed = blake2b(digest_size=20)
+        for array in (self.V, self.corners, self.starts, self.seams, np.packbits(chosen)):
+            hashed.update(str(array.shape).encode())
+            hashed.update(np.ascontiguousarray(array).data)
+        return hashed.digest()
+
+
+def read_mesh(mesh: bpy.types.Mesh, uv_layer: str) -> MeshArrays:
+    """The arrays of a mesh that is not in Edit Mode.
+
+    Parameters
+    ----------
+    uv_layer : str
+        Layer whose pins are read; none where there is no such layer.
+    """
+    p, k = len(mesh.polygons), len(mesh.loops)
+    corners = _attribute(mesh, ".corner_vert", "value", np.int32, k)
+    selected = _attribute(mesh, ".select_poly", "value", np.bool_, p)
+    hidden = _attribute(mesh, ".hide_poly", "value", np.bool_, p)
+    pinned = _attribute(mesh, f".pn.{uv_layer}", "value", np.bool_, k)
+    starts = _starts(mesh, p, k)
+    if pinned.any():
+        pinned &= np.repeat(~hidden, np.diff(starts))
+    return MeshArrays(
+        V=_attribute(mesh, "position", "vector", np.float32, len(mesh.vertices), 3),
+        corners=corners,
+        starts=starts,
+        seams=_seams(mesh, k),
+        selected=selected,
+        hidden=hidden,
+        pins=corners[pinned],
+    )
+
+
+def pinned_vertices(arrays: MeshArrays, chosen: NDArray[np.bool_]) -> list[int]:
+    """Pinned vertices that the chosen faces use, each once, in the order of the corners."""
+    used = np.zeros(len(arrays.V), dtype=bool)
+    used[arrays.corners[np.repeat(chosen, np.diff(arrays.starts))]] = True
+    pins = arrays.pins[used[arrays.pins]]
+    _, first = np.unique(pins, return_index=True)
+    return pins[np.sort(first)].tolist()
+
+
+def read_corner_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    """The edge of every corner, (k,)."""
+    return _attribute(mesh, ".corner_edge", "value", np.int32, len(mesh.loops))
+
+
+def read_uv(mesh: bpy.types.Mesh, uv_layer: str) -> NDArray[np.float32]:
+    """UVs of every corner, (k, 2); zeros where there is no such layer."""
+    return _attribute(mesh, uv_layer, "vector", np.float32, len(mesh.loops), 2)
+
+
+def uv_layer_name(mesh: bpy.types.Mesh, wanted: str) -> str:
+    """The layer meant by a name that may be empty: the active one, or one that is still to be made."""
+    if wanted:
+        return wanted
+    active = mesh.uv_layers.active
+    return active.name if active is not None else DEFAULT_LAYER
+
+
+def has_room(mesh: bpy.types.Mesh, uv_layer: str) -> bool:
+    """Whether the layer exists or can be made."""
+    return mesh.uv_layers.get(uv_layer) is not None or len(mesh.uv_layers) < MOST_UV_LAYERS
+
+
+def write_uv(mesh: bpy.types.Mesh, uv_layer: str, uv: NDArray[np.float64], written: NDArray[np.bool_]) -> None:
+    """Set the UVs of some corners, in Object Mode; all others keep theirs bit for bit.
+
+    Parameters
+    ----------
+    uv_layer : str
+        Made, and made active, when missing.
+    uv : (k, 2)
+    written : (k,) bool
+    """
+    layer = mesh.uv_layers.get(uv_layer)
+    if layer is None:
+        layer = mesh.uv_layers.new(name=uv_layer)
+        mesh.uv_layers.active = layer
+    values = np.empty((len(mesh.loops), 2), dtype=np.float32)
+    data = mesh.attributes[layer.name].data
+    data.foreach_get("vector", values.reshape(-1))
+    values[written] = uv[written]
+    data.foreach_set("vector", values.reshape(-1))
+    mesh.update()
+
+
+def write_selection(mesh: bpy.types.Mesh, faces: NDArray[np.bool_]) -> None:
+    """Select these faces with their edges and vertices, and nothing else, in Object Mode."""
+    corner = np.repeat(faces, np.diff(_starts(mesh, len(mesh.polygons), len(mesh.loops))))
+    vertices, edges = np.zeros(len(mesh.vertices), dtype=bool), np.zeros(len(mesh.edges), dtype=bool)
+    vertices[_attribute(mesh, ".corner_vert", "value", np.int32, len(mesh.loops))[corner]] = True
+    edges[read_corner_edges(mesh)[corner]] = True
+    mesh.vertices.foreach_set("select", vertices)
+    mesh.edges.foreach_set("select", edges)
+    mesh.polygons.foreach_set("select", faces)
+    mesh.update()
+
+
+def new_mesh(arrays: MeshArrays, faces: NDArray[np.bool_], uv: NDArray[np.float32]) -> bpy.types.Mesh:
+    """A mesh of some of the faces (p,), with the UVs (k, 2) of their corners."""
+    sizes = np.diff(arrays.starts)
+    corner = np.repeat(faces, sizes)
+    sizes = sizes[faces]
+    mesh = bpy.data.meshes.new("conformal_uv packing")
+    mesh.vertices.add(len(arrays.V))
+    mesh.vertices.foreach_set("co", arrays.V.reshape(-1))
+    mesh.loops.add(int(corner.sum()))
+    mesh.loops.foreach_set("vertex_index", arrays.corners[corner])
+    mesh.polygons.add(len(sizes))
+    mesh.polygons.foreach_set("loop_start", (np.cumsum(sizes) - sizes).astype(np.int32))
+    mesh.update(calc_edges=True)
+    layer = mesh.uv_layers.new(name=DEFAULT_LAYER)
+    layer.uv.foreach_set("vector", np.ascontiguousarray(uv[corner]).reshape(-1))
+    return mesh
+
+
+def _attribute(
+    mesh: bpy.types.Mesh, name: str, field: str, dtype: type, count: int, width: int = 1
+) -> NDArray[np.generic]:
+    """Values of an attribute, (count,) or (count, width); zeros where there is none (Blender drops those all False)."""
+    attribute = mesh.attributes.get(name)
+    values = np.zeros(count * width, dtype=dtype)
+    if attribute is not None and count:
+        attribute.data.foreach_get(field, values)
+    return values if width == 1 else values.reshape(count, width)
+
+
+def _starts(mesh: bpy.types.Mesh, p: int, k: int) -> NDArray[np.int32]:
+    if k == 3 * p:  # faces have three corners or more: these have three
+        return np.arange(0, k + 1, 3, dtype=np.int32)
+    starts = np.empty(p + 1, dtype=np.int32)
+    mesh.polygons.foreach_get("loop_start", starts[:p])
+    starts[p] = k
+    return starts
+
+
+def _seams(mesh: bpy.types.Mesh, k: int) -> NDArray[np.int32]:
+    """Vertices of the seams that are edges of faces, (s, 2)."""
+    count = len(mesh.edges)
+    name = "uv_seam" if mesh.attributes.get("uv_seam") is not None else ".uv_seam"
+    seam = _attribute(mesh, name, "value", np.bool_, count)
+    if not seam.any():
+        return np.empty((0, 2), dtype=np.int32)
+    of_face = np.zeros(count, dtype=bool)
+    of_face[read_corner_edges(mesh)] = True
+    return _attribute(mesh, ".edge_verts", "value", np.int32, count, 2)[seam & of_face]

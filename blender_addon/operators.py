@@ -1,0 +1,133 @@
+"""The operators: thin, over unwrap_objects and the mesh files' reading and writing."""
+
+import bpy
+
+from . import last_result
+from .edit_mode import target_objects
+from .libraries import missing_library
+from .properties import Options, UnwrapProperties
+
+MANY_FACES = 50_000  # from here on the window gets a thread and a progress text
+
+
+def refusal(context: bpy.types.Context) -> str:
+    """Why there is nothing to unwrap, empty where there is something."""
+    if context.mode not in {"OBJECT", "EDIT_MESH"}:
+        return "Go to Object Mode or to Edit Mode of a mesh"
+    if context.mode == "OBJECT" and not any(ob.type == "MESH" for ob in context.selected_editable_objects):
+        return "Select a mesh object"
+    return missing_library()
+
+
+class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
+    """Map each island of the selected faces onto a disk, keeping angles"""
+
+    bl_idname = "uv.conformal_unwrap"
+    bl_label = "Conformal Disk Unwrap"
+    bl_options = {"REGISTER", "UNDO"}
+
+    _worker = None
+
+    @classmethod
+    def poll(cls, context):
+        why = refusal(context)
+        if why:
+            cls.poll_message_set(why)
+        return not why
+
+    def invoke(self, context, event):
+        """From the window: large meshes are solved in a thread, then written by execute from what it kept."""
+        objects = target_objects(context)
+        if sum(len(ob.data.polygons) for ob in objects) < MANY_FACES and context.mode == "OBJECT":
+            return self.execute(context)
+        from .worker import Worker
+
+        worker = Worker(context, objects, Options.of(self))
+        if worker.faces < MANY_FACES:
+            return self.execute(context)
+        self._worker = worker
+        worker.start(context)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self._worker.cancel(context)
+            self.report({"INFO"}, "Conformal Disk Unwrap cancelled; nothing was changed")
+            return {"CANCELLED"}
+        if event.type == "TIMER":
+            if self._worker.running:
+                self._worker.show(context)
+            else:
+                self._worker.finish(context)
+                return self.execute(context)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context):
+        """Blender closes the window or loads another file."""
+        if self._worker is not None:
+            self._worker.cancel(context)
+
+    def execute(self, context):
+        from .unwrap_objects import unwrap_objects
+
+        result = unwrap_objects(context, target_objects(context), Options.of(self))
+        last_result.keep(result)
+        if not result.unwrapped:
+            self.report({"ERROR"}, result.message)
+            return {"CANCELLED"}
+        self.report({"INFO"} if result.complete else {"WARNING"}, result.message)
+        for remark in result.remarks:
+            self.report({"INFO"}, remark)
+        return {"FINISHED"}
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for names in (
+            ("method", "center", "rotation"),
+            ("place", "margin", "correct_aspect"),
+            ("faces", "fill_holes", "closed", "repair", "use_pins", "use_subsurf_data"),
+            ("uv_layer",),
+        ):
+            column = layout.column()
+            for name in names:
+                column.prop(self, name)
+            layout.separator(factor=0.5)
+
+
+class UV_OT_conformal_select_folded(bpy.types.Operator):
+    """Select visible faces whose UVs are inverted or have no area, in the active UV map"""
+
+    bl_idname = "uv.conformal_select_folded"
+    bl_label = "Select Flipped or Collapsed"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        why = "Go to Edit Mode" if context.mode != "EDIT_MESH" else missing_library()
+        if why:
+            cls.poll_message_set(why)
+        return not why
+
+    def execute(self, context):
+        from .folded import select_folded
+
+        found = select_folded(context)
+        context.tool_settings.mesh_select_mode = (False, False, True)
+        self.report({"INFO"}, f"{found} faces are flipped or collapsed")
+        return {"FINISHED"}
+
+
+CLASSES = (UV_OT_conformal_unwrap, UV_OT_conformal_select_folded)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,74 @@
+"""The sidebar panel of the UV editor: the operator's button and the last result's numbers."""
+
+import bpy
+
+from . import last_result
+from .operators import UV_OT_conformal_select_folded, UV_OT_conformal_unwrap
+
+MOST_OBJECTS = 8
+
+
+class UV_PT_conformal_unwrap(bpy.types.Panel):
+    """Numbers of the last conformal unwrap"""
+
+    bl_label = "Conformal Disk Unwrap"
+    bl_space_type = "IMAGE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Conformal UV"
+
+    @classmethod
+    def poll(cls, context):
+        return context.area.ui_type == "UV"
+
+    def draw(self, context):
+        layout = self.layout
+        row = layout.row()
+        row.operator_context = "INVOKE_DEFAULT"
+        row.operator(UV_OT_conformal_unwrap.bl_idname, icon="UV")
+        result = last_result.last()
+        if result is None:
+            layout.label(text="Nothing unwrapped yet")
+        else:
+            layout.label(text=f"{result.unwrapped} of {result.islands} islands, {result.seconds:.2f} s")
+            for ob in result.objects[:MOST_OBJECTS]:
+                draw_object(layout.box(), ob)
+            if len(result.objects) > MOST_OBJECTS:
+                layout.label(text=f"and {len(result.objects) - MOST_OBJECTS} more objects")
+        layout.operator(UV_OT_conformal_select_folded.bl_idname, icon="FACESEL")
+
+
+def draw_object(layout, ob):
+    """Rows of name and number."""
+    layout.label(text=ob.name, icon="MESH_DATA")
+    if ob.refusal:
+        layout.label(text=ob.refusal, icon="ERROR")
+        return
+    column = layout.column(align=True)
+    for name, value in rows(ob):
+        split = column.split(factor=0.55)
+        split.label(text=name)
+        split.label(text=value)
+    for failure in ob.failures[:MOST_OBJECTS]:
+        column.label(text=f"Face {failure.faces[0]}: {failure.why}", icon="ERROR")
+
+
+def rows(ob):
+    """Names and texts of an object's numbers."""
+    told = [("Islands", f"{ob.islands - len(ob.failures)} of {ob.islands}")]
+    if ob.angle_mean is not None:
+        told += [
+            ("Angle error, mean", f"{ob.angle_mean:.3g}°"),
+            ("Angle error, largest", f"{ob.angle_max:.3g}°"),
+            ("Area ratio", "-" if ob.area_ratio is None else f"{ob.area_ratio:.3g}"),
+            ("Flipped faces", str(ob.flipped)),
+            ("Lost to float32", str(ob.lost_to_float32)),
+        ]
+    return told
+
+
+def register():
+    bpy.utils.register_class(UV_PT_conformal_unwrap)
+
+
+def unregister():
+    bpy.utils.unregister_class(UV_PT_conformal_unwrap)

@@ -1,0 +1,171 @@
+"""What came of an unwrap: numbers for the panel and the report file, one line for the status bar."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from conformal_uv import Chart, Unwrapped
+
+from .properties import CENTERS, CLOSED, FACES, METHODS, PLACES
+from .subdivided import Subdivision
+
+MOST_FACES, MOST_FAILURES = 3, 4  # named in a message
+
+
+@dataclass(frozen=True)
+class Failure:
+    """An island that kept its UVs: its faces and why."""
+
+    faces: list[int]
+    why: str
+
+
+@dataclass(frozen=True)
+class ObjectResult:
+    """What came of one object; angles in degrees, over all its unwrapped islands.
+
+    `area_ratio` is the largest over the smallest of the factors by which faces' areas changed.
+    """
+
+    name: str
+    uv_layer: str
+    refusal: str = ""
+    islands: int = 0
+    failures: list[Failure] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    triangles: int = 0
+    angle_mean: float | None = None
+    angle_max: float | None = None
+    area_ratio: float | None = None
+    flipped: int = 0
+    lost_to_float32: int = 0
+
+
+@dataclass(frozen=True)
+class UnwrapResult:
+    """What came of all objects."""
+
+    objects: list[ObjectResult]
+    seconds: float
+
+    @property
+    def islands(self) -> int:
+        """Islands found."""
+        return sum(ob.islands for ob in self.objects)
+
+    @property
+    def unwrapped(self) -> int:
+        """Islands with new UVs."""
+        return self.islands - sum(len(ob.failures) for ob in self.objects)
+
+    @property
+    def complete(self) -> bool:
+        """Whether everything asked for was done."""
+        return bool(self.unwrapped) and not any(ob.refusal or ob.failures for ob in self.objects)
+
+    @property
+    def message(self) -> str:
+        """One line: how many islands, and why not the others."""
+        told = [f"{ob.name}: {ob.refusal}" for ob in self.objects if ob.refusal]
+        for ob in self.objects:
+            told += [f"{ob.name}, faces {_some(failure.faces)}: {failure.why}" for failure in ob.failures]
+        if len(told) > MOST_FAILURES:
+            told[MOST_FAILURES:] = [f"and {len(told) - MOST_FAILURES} more"]
+        count = f"Unwrapped {self.unwrapped} of {self.islands} island{'s' * (self.islands != 1)}"
+        if len(self.objects) > 1:
+            count += f" of {len(self.objects)} objects"
+        return "; ".join([count, *told])
+
+    @property
+    def remarks(self) -> list[str]:
+        """What was mended, left unused or lost, object by object."""
+        told = [f"{ob.name}: {note}" for ob in self.objects for note in ob.notes]
+        told += [f"{ob.name}: {ob.flipped} faces are inverted" for ob in self.objects if ob.flipped]
+        told += [
+            f"{ob.name}: {ob.lost_to_float32} triangles are too small for the single precision of UVs; "
+            "cut the island with seams"
+            for ob in self.objects
+            if ob.lost_to_float32
+        ]
+        return told
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "summary": self.message,
+            "islands": self.islands,
+            "unwrapped": self.unwrapped,
+            "seconds": self.seconds,
+            "objects": [asdict(ob) for ob in self.objects],
+        }
+
+
+def measured(name: str, layer: str, solved: Unwrapped, subdivision: Subdivision | None) -> ObjectResult:
+    """The numbers of one object."""
+    done = [chart for chart in solved.charts if chart.map is not None]
+    failures = [Failure(_faces(chart, subdivision), _in_words_of_the_panel(str(chart.error)))
+                for chart in solved.charts if chart.map is None]
+    if not done:
+        return ObjectResult(name, layer, islands=len(solved.charts), failures=failures)
+    distortions = [chart.distortion for chart in done]
+    corners = np.array([d.angle_error.size for d in distortions])
+    scales = np.concatenate([d.area_scale for d in distortions])
+    return ObjectResult(
+        name,
+        layer,
+        islands=len(solved.charts),
+        failures=failures,
+        notes=[note for chart in solved.charts for note in chart.notes] + _unconverged(done),
+        triangles=sum(len(chart.F) for chart in done),
+        angle_mean=float(np.average([d.angle_mean for d in distortions], weights=corners)),
+        angle_max=max(d.angle_max for d in distortions),
+        area_ratio=_ratio(scales),
+        flipped=sum(len(chart.flipped) for chart in done),
+        lost_to_float32=sum(len(chart.map.lost_to_float32) for chart in done),
+    )
+
+
+def _faces(chart: Chart, subdivision: Subdivision | None) -> list[int]:
+    return (chart.faces if subdivision is None else subdivision.faces_of(chart.faces)).tolist()
+
+
+def _unconverged(charts: list[Chart]) -> list[str]:
+    count = sum(not chart.map.converged for chart in charts)
+    return [f"{count} islands stopped before the method's tolerance"] if count else []
+
+
+def _ratio(scales: np.ndarray) -> float | None:
+    finite = scales[np.isfinite(scales) & (scales > 0)]
+    return float(finite.max() / finite.min()) if len(finite) else None
+
+
+def _some(faces: list[int]) -> str:
+    text = ", ".join(str(face) for face in faces[:MOST_FACES])
+    return text if len(faces) <= MOST_FACES else f"{text} ..."
+
+
+LABELS = {
+    "closed": ("Closed Surfaces", CLOSED),
+    "method": ("Method", METHODS),
+    "center": ("Center", CENTERS),
+    "place": ("Place", PLACES),
+    "faces": ("Faces", FACES),
+}
+
+
+def _in_words_of_the_panel(text: str) -> str:
+    """Advice to pass an argument of the library, as the property that a user can set; what has none is left out."""
+
+    def told(match: re.Match[str]) -> str:
+        if match["name"] == "holes":
+            return "turn on Fill Holes"
+        label, items = LABELS.get(match["name"], ("", ()))
+        names = {identifier.lower(): name for identifier, name, _ in items}
+        return f"set {label} to {names[match['value']]}" if match["value"] in names else ""
+
+    text = re.sub(r'[Pp]ass (?P<name>\w+)="(?P<value>[\w-]+)"', told, text)
+    return text.replace(" use sphere_map(),", "").replace(", or .", ".").strip()

@@ -1,0 +1,102 @@
+"""Objects unwrapped: all read, all solved, and only then written."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable
+
+import bpy
+import numpy as np
+
+from conformal_uv import CancelledError, ConformalUVError
+from conformal_uv.progress import Callback
+
+from .edit_mode import object_mode
+from .image_aspect import aspect_scale
+from .kept_work import KEPT, KeptWork, Key
+from .mesh_io import write_uv
+from .packing import pack_with_blender
+from .properties import Options
+from .results import ObjectResult, UnwrapResult, measured
+from .tasks import Task, gather
+
+
+def solve(
+    tasks: list[Task],
+    options: Options,
+    kept: KeptWork,
+    *,
+    callback: Callback | None = None,
+    backend: str = "auto",
+) -> set[Key]:
+    """Solve every task, within Python and numpy alone: no bpy, so that a thread may run it.
+
+    Returns
+    -------
+    set of Key
+        What `kept` holds for these tasks.
+
+    Raises
+    ------
+    CancelledError
+    """
+    todo = [task for task in tasks if task.surface is not None and not task.refusal]
+    for number, task in enumerate(todo):
+        try:
+            task.solved = kept.unwrapped(
+                task.surface, options, callback=_part(callback, number, len(todo)), backend=backend
+            )
+        except CancelledError:
+            raise
+        except ConformalUVError as error:
+            task.refusal = str(error)
+    return {task.surface.key(options) for task in todo}
+
+
+def unwrap_objects(
+    context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options
+) -> UnwrapResult:
+    """Unwrap the objects' meshes as the options say; see the result for what could not be done."""
+    start = time.perf_counter()
+    tasks = gather(context, objects, options)
+    KEPT.keep_only(solve(tasks, options, KEPT))
+    done = [task for task in tasks if task.solved is not None and task.solved.mapped.any()]
+    with object_mode(context):
+        placed = pack_with_blender(context, done, options) if options.place == "PACK" and done else None
+        for number, task in enumerate(done):
+            _write(task, _placed(task) if placed is None else placed[number], options)
+    results = [_result(task) for task in tasks]
+    return UnwrapResult(results, time.perf_counter() - start)
+
+
+def _placed(task: Task) -> np.ndarray:
+    """UVs in the unit square for every corner of what was solved."""
+    solved = task.solved
+    if sum(chart.map is not None for chart in solved.charts) == 1:
+        return 0.5 + 0.5 * solved.uv
+    return solved.uv
+
+
+def _write(task: Task, uv: np.ndarray, options: Options) -> None:
+    mapped = task.solved.mapped
+    if options.correct_aspect:
+        uv = 0.5 + aspect_scale(task.ob) * (uv - 0.5)
+    if task.subdivision is not None:
+        uv, mapped = uv[task.subdivision.corner], task.subdivision.whole_faces(mapped)
+        sizes = np.diff(task.subdivision.starts)
+    else:
+        sizes = np.diff(task.surface.arrays.starts)
+    write_uv(task.ob.data, task.layer, uv, np.repeat(mapped, sizes))
+
+
+def _result(task: Task) -> ObjectResult:
+    if task.solved is None:
+        return ObjectResult(task.ob.name, task.layer, refusal=task.refusal)
+    return measured(task.ob.name, task.layer, task.solved, task.subdivision)
+
+
+def _part(callback: Callback | None, number: int, count: int) -> Callable[[str, float], object] | None:
+    """The callback for one of several tasks, its fraction that of all."""
+    if callback is None:
+        return None
+    return lambda stage, fraction: callback(stage, (number + fraction) / count)
