@@ -35,7 +35,7 @@ def pack_disks(radius: Real, margin: float) -> tuple[Real, float]:
         rectangle-packer is not installed.
     """
     try:
-        import rpack  # type: ignore[import-untyped, unused-ignore]
+        import rpack
     except ImportError as error:
         raise MissingDependencyError(
             'Packing several charts needs rectangle-packer: pip install rectangle-packer, or pass place="disk".'

@@ -21,6 +21,8 @@ from ..operators.edge_laplacian import edge_laplacian
 
 __all__ = ["CentredMeasure", "angles_of_measure", "centred_measure"]
 
+MOST_OF_ONE = 0.49  # of the harmonic measure
+
 
 @dataclass(frozen=True, eq=False)
 class CentredMeasure:
@@ -29,9 +31,9 @@ class CentredMeasure:
     Attributes
     ----------
     centre : int or None
-        The interior vertex; None where the mesh has none and a midpoint of an edge served.
+        The interior vertex that comes to 0; None where there is no such vertex.
     vertex_measure : (nb,) float64
-        Of each boundary vertex of the mesh itself, or of its refinement where there is no centre; sums to 1.
+        Of each boundary vertex, sums to 1; its mean of the boundary's positions is held at 0.
     theta : (nb,) float64
         Boundary angles, increasing from 0.
     """
@@ -44,9 +46,9 @@ class CentredMeasure:
 def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasure:
     """Harmonic measure seen from the peak of the torsion function, and the boundary angles it gives.
 
-    Chords (interior edges between two boundary vertices) stop the flux of piecewise linear functions: no
-    boundary edge of a corner cut off by several of them would get any. Such a mesh, and one without interior
-    vertices, is measured on a copy with its chords split.
+    Chords (interior edges between two boundary vertices) stop the flux of piecewise linear functions: no boundary
+    edge of a corner cut off by several of them would get any. Such a mesh, one without interior vertices, and one
+    whose weights give negative flux, is measured on a copy with its chords split and weights that are not negative.
     """
     loop = problem.boundary
     lengths = np.linalg.norm(surface.V[np.roll(loop, -1)] - surface.V[loop], axis=1)
@@ -55,21 +57,30 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
         centre = torsion_centre(lumped_areas(surface.geometry, surface.corners, surface.n), problem)
         measure = problem.harmonic_measure(centre)
         theta = angles_of_measure(measure, lengths)
-        if not _stalls(theta):
-            return CentredMeasure(centre, measure, theta)
-    chords = chord_edges(surface, loop)
-    if not len(chords):
-        if measure is None:  # a single triangle
-            third = np.arange(3) / 3.0
-            return CentredMeasure(None, np.full(3, 1.0 / 3.0), 2.0 * np.pi * third)
-        return CentredMeasure(centre, measure, theta)
-    V, corners = split_edges(surface.V, surface.corners, surface.edges, chords)
+        if (np.diff(theta, append=2.0 * np.pi) > 0.0).all():
+            return _balanced(CentredMeasure(centre, measure, theta))
+    elif surface.n == 3:
+        return CentredMeasure(None, np.full(3, 1.0 / 3.0), 2.0 * np.pi / 3.0 * np.arange(3.0))
+    V, corners = split_edges(surface.V, surface.corners, surface.edges, chord_edges(surface, loop))
     edges, geometry = half_edges(corners, len(V)), triangle_geometry(V, corners)
-    laplacian = edge_laplacian(corners, edges, geometry, len(V), problem.laplacian.kind)
+    laplacian = edge_laplacian(corners, edges, geometry, len(V))
     refined = DirichletProblem(laplacian, loop, len(V), backend=problem.backend)
     pole = centre if centre is not None else torsion_centre(lumped_areas(geometry, corners, len(V)), refined)
     fine = refined.harmonic_measure(pole)
-    return CentredMeasure(centre, fine if measure is None else measure, angles_of_measure(fine, lengths))
+    if measure is None or (measure < 0.0).any():
+        measure = fine
+    return _balanced(CentredMeasure(centre, measure, angles_of_measure(fine, lengths)))
+
+
+def _balanced(found: CentredMeasure) -> CentredMeasure:
+    """The same, without a centre where one boundary vertex has about half of its measure.
+
+    No map of the disk brings the image of such a vertex to 0. The arcs then serve as measure.
+    """
+    if found.vertex_measure.max() < MOST_OF_ONE:
+        return found
+    arcs = np.diff(found.theta, append=2.0 * np.pi) / (4.0 * np.pi)
+    return CentredMeasure(None, arcs + np.roll(arcs, 1), found.theta)
 
 
 def torsion_centre(areas: NDArray[np.float64], problem: DirichletProblem) -> int:
@@ -80,8 +91,9 @@ def torsion_centre(areas: NDArray[np.float64], problem: DirichletProblem) -> int
 def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:
     """Angles of the boundary vertices from their harmonic measure.
 
-    Each vertex shares its measure between its two boundary edges in proportion to their lengths; the running sum
-    over the edges, times 2 pi, is the angle.
+    Each vertex shares its measure between the boundary on its two sides, as far as the next vertices that have any, in
+    proportion to their lengths, and every stretch spreads what it gets evenly along itself; the running sum over the
+    edges, times 2 pi, is the angle.
 
     Parameters
     ----------
@@ -89,9 +101,14 @@ def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]
     lengths : (nb,)
         Of the boundary edge from each vertex to the next.
     """
-    around = lengths + np.roll(lengths, 1)
-    density = measure / np.where(around > 0.0, around, 1.0)
-    on_edge = lengths * (density + np.roll(density, -1))
+    bearing = np.flatnonzero(measure > 0.0)
+    first = int(bearing[0])
+    stretch = np.add.reduceat(np.roll(lengths, -first), bearing - first)  # from each to the next
+    around = stretch + np.roll(stretch, 1)
+    density = measure[bearing] / np.where(around > 0.0, around, 1.0)
+    density += np.roll(density, -1)
+    edges = np.diff(bearing, append=first + len(measure))
+    on_edge = lengths * np.roll(np.repeat(density, edges), first)
     total = np.cumsum(on_edge)
     return 2.0 * np.pi * np.concatenate(([0.0], total[:-1] / total[-1]))
 
@@ -102,7 +119,3 @@ def chord_edges(surface: Surface, loop: NDArray[np.int64]) -> NDArray[np.int64]:
     on_boundary[loop] = True
     edges = surface.edges
     return np.flatnonzero((edges.count == 2) & on_boundary[edges.lo] & on_boundary[edges.hi])
-
-
-def _stalls(theta: NDArray[np.float64]) -> bool:
-    return not bool((np.diff(theta, append=2.0 * np.pi) > 0).all())

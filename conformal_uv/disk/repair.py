@@ -26,6 +26,7 @@ __all__ = ["Repair", "flipped_faces", "recentred", "repaired", "unresolved_faces
 
 Complex = NDArray[np.complex128]
 
+MOST_TRIED = 100  # collapsed faces
 FIRST_RINGS = 1  # of the patch around a fold
 RESOLUTION = 16.0 * np.finfo(np.float64).eps  # of a position in the disk, with a few operations behind it
 
@@ -79,7 +80,11 @@ def repaired(
         Folds are left that positive weights everywhere did not undo: doubles can not hold the map unfolded.
     """
     corners, n = surface.corners, surface.n
-    folds = _folds(z, corners)
+    flipped = flipped_faces(z, corners)
+    crowded = unresolved_faces(z, corners, flipped)
+    if len(crowded) < MOST_TRIED:
+        crowded = crowded[:0]  # few enough to try them too; crowding proper comes in great numbers
+    folds = np.setdiff1d(flipped, crowded, assume_unique=True)
     if not len(folds):
         return z, False
     inside = np.ones(n, dtype=bool)
@@ -92,7 +97,7 @@ def repaired(
         patch = _ball(corners, folds, rings, n) & inside
         whole = bool(patch[inside].all())
         moved = _untangled(z, corners, patch)
-        left = _folds(moved, corners)
+        left = np.setdiff1d(flipped_faces(moved, corners), crowded, assume_unique=True)
         if len(left) < len(folds):
             z, folds = moved, left
             candidates.append((len(folds), z))
@@ -100,11 +105,12 @@ def repaired(
             rings *= 2
     if len(folds) and inside.any():
         moved = _placed(_adjacency(surface), candidates[0][1], inside)
-        candidates.append((len(_folds(moved, corners)), moved))
+        left = np.setdiff1d(flipped_faces(moved, corners), crowded, assume_unique=True)
+        candidates.append((len(left), moved))
     fewest, best = min(candidates, key=lambda candidate: candidate[0])
     if 2 * fewest > candidates[0][0]:  # little to be had for all the angles that it would cost
-        return candidates[0][1], True
-    return best, fewest > 0
+        best = candidates[0][1]
+    return best, len(flipped_faces(best, corners)) > 0
 
 
 def recentred(z: Complex, center: int | None, corners: NDArray[np.int32]) -> Complex:
@@ -116,12 +122,6 @@ def recentred(z: Complex, center: int | None, corners: NDArray[np.int32]) -> Com
     moved[on_circle] /= np.abs(moved[on_circle])
     moved[z == 1.0], moved[center] = 1.0, 0.0
     return z if len(flipped_faces(moved, corners)) else moved
-
-
-def _folds(z: Complex, corners: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Flipped faces that doubles could hold unfolded."""
-    flipped = flipped_faces(z, corners)
-    return np.setdiff1d(flipped, unresolved_faces(z, corners, flipped), assume_unique=True)
 
 
 def _ball(corners: NDArray[np.int32], faces: NDArray[np.int64], rings: int, n: int) -> NDArray[np.bool_]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["HalfEdges", "half_edges"]
+__all__ = ["HalfEdges", "half_edges", "sorted_keys"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ def half_edges(corners: NDArray[np.int32], n: int) -> HalfEdges:
     key = np.minimum(tail, head).astype(np.int64)
     key *= n
     key += np.maximum(tail, head)
-    key, order = _sorted(key, n)
+    key, order = sorted_keys(key, n)
 
     first = np.empty(len(key), dtype=bool)  # first half-edge of its edge, in sorted order
     first[0] = True
@@ -66,8 +66,8 @@ def half_edges(corners: NDArray[np.int32], n: int) -> HalfEdges:
     )
 
 
-def _sorted(key: NDArray[np.int64], n: int) -> tuple[NDArray[np.int64], NDArray[np.integer]]:
-    """The keys in order, and the permutation; packed into one integer where both fit into 63 bits."""
+def sorted_keys(key: NDArray[np.int64], n: int) -> tuple[NDArray[np.int64], NDArray[np.integer]]:
+    """Keys below n * n in order, and the permutation; packed into one integer where both fit into 63 bits."""
     bits = len(key).bit_length()
     if (n * n).bit_length() + bits > 63:
         order = np.argsort(key)

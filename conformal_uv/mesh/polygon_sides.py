@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .halfedges import _sorted
+from .halfedges import sorted_keys
 from .polygons import PolygonMesh
 
 __all__ = ["PolygonSides", "edge_keys", "following_corners", "polygon_sides"]
@@ -50,7 +50,7 @@ class PolygonSides:
 def polygon_sides(mesh: PolygonMesh) -> PolygonSides:
     """Pair the sides of the polygons; at least one polygon, every polygon with at least one corner."""
     follow, n = following_corners(mesh), len(mesh.V)
-    key, order = _sorted(edge_keys(mesh.corners, mesh.corners[follow], n), n)
+    key, order = sorted_keys(edge_keys(mesh.corners, mesh.corners[follow], n), n)
     first = np.ones(len(key), dtype=bool)
     np.not_equal(key[1:], key[:-1], out=first[1:])
     start = np.flatnonzero(first)

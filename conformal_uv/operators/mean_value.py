@@ -16,6 +16,7 @@ from scipy.sparse import csr_array
 __all__ = ["positive_mean_value_matrix"]
 
 LEAST_ANGLE = 0.005  # radians, of the corners at a vertex with a folded face
+LEAST_RATIO = 0.01  # of the two edges of such a corner
 SHORTEST = 1e-14  # distance of neighbours in the unit disk
 
 
@@ -46,7 +47,8 @@ def positive_mean_value_matrix(
     tangent = np.tan(np.clip(0.5 * angle, 1e-9, 0.5 * np.pi - 1e-9))
     rows = np.concatenate((here, here)).reshape(-1)
     columns = np.concatenate((after, before)).reshape(-1)
+    reach = np.where(loose, LEAST_RATIO, 0.0) * (np.abs(ahead) + np.abs(behind)) + SHORTEST
     values = np.concatenate(
-        (tangent / np.maximum(np.abs(ahead), SHORTEST), tangent / np.maximum(np.abs(behind), SHORTEST))
+        (tangent / np.maximum(np.abs(ahead), reach), tangent / np.maximum(np.abs(behind), reach))
     )
     return csr_array((values.reshape(-1), (rows, columns)), shape=(len(z), len(z)))
