@@ -12,6 +12,9 @@ from .edge_laplacian import EdgeLaplacian
 
 __all__ = ["DirichletProblem"]
 
+WIDE_SPREAD = 1e6  # of the largest weight over the median
+CORRECTIONS = 2  # steps of iterative refinement where weights spread so wide
+
 
 class DirichletProblem:
     """``Lii u_i = -Lib u_b`` for a Laplacian of weighted edges; i interior, b boundary in its order.
@@ -54,6 +57,8 @@ class DirichletProblem:
         number[boundary] = np.arange(len(boundary), dtype=np.int32)
         self._blocks(inside, number)
         self.backend = choose_backend(backend)
+        spread = laplacian.weights.max(initial=0.0) / max(float(np.median(laplacian.weights)), 1e-300)
+        self._corrections = CORRECTIONS if spread > WIDE_SPREAD else 0
         self._factor: Factorization | None = None
         if len(self.interior):
             self._factor = factorize(self._interior_block(inside, number), backend, progress)
@@ -94,10 +99,30 @@ class DirichletProblem:
         return LowerTriangle(data, indices, indptr)
 
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
-        """``Lii^-1 rhs`` for rhs (ni,) or (ni, k)."""
+        """``Lii^-1 rhs`` for rhs (ni,) or (ni, k).
+
+        Very large weights (of mollified slivers) drown the small ones in the sums on the diagonal; the residual, taken
+        over differences along edges, still has them, and corrects the solution.
+        """
         if self._factor is None:
             return rhs.copy()
-        return self._factor.solve(rhs)
+        x = self._factor.solve(rhs)
+        for _ in range(self._corrections):
+            x = x + self._factor.solve(rhs - self._apply(x))
+        return x
+
+    def _apply(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """``Lii x``, as weighted differences along the edges."""
+        full = np.zeros((self.n, *x.shape[1:]))
+        full[self.interior] = x
+        lo, hi = self.laplacian.lo, self.laplacian.hi
+        flow = (self.laplacian.weights * (full[lo] - full[hi]).T).T
+        columns = flow.reshape(len(lo), -1).T
+        out = [
+            np.bincount(lo, weights=column, minlength=self.n) - np.bincount(hi, weights=column, minlength=self.n)
+            for column in columns
+        ]
+        return np.stack(out, axis=1)[self.interior].reshape(x.shape)
 
     def interior_values(self, zb: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Harmonic extension of complex boundary values zb (nb,), at the interior vertices (ni,)."""
