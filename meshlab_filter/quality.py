@@ -1,0 +1,78 @@
+"""The distortion of every polygon, and the numbers of a whole map."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conformal_uv import OptionError, Unwrapped
+from conformal_uv.operators.orientation_sign import orientation_signs
+
+from .current_mesh import CurrentMesh
+from .texcoords import Texcoords
+
+__all__ = ["QUALITIES", "check_quality", "map_numbers", "polygon_quality"]
+
+QUALITIES = ("none", "angle", "quasi-conformal")
+
+
+def check_quality(quality: str) -> None:
+    """Raise OptionError on a quality that is not known."""
+    if quality not in QUALITIES:
+        raise OptionError(f"quality is {quality!r}; choose {', '.join(QUALITIES)}.")
+
+
+def polygon_quality(result: Unwrapped, quality: str) -> NDArray[np.float64]:
+    """Mean angle error (degrees) or quasi-conformal ratio of the triangles of each polygon, (p,).
+
+    A ratio without bound (a polygon without area, here or in the image) becomes the largest finite one: MeshLab's
+    colour scale can not hold it.
+    """
+    total, count = np.zeros(len(result.mapped)), np.zeros(len(result.mapped))
+    for chart in result.charts:
+        if chart.distortion is None:
+            continue
+        d = chart.distortion
+        value = d.angle_error.mean(axis=1) if quality == "angle" else _bounded(d.quasi_conformal)
+        np.add.at(total, chart.polygon, value)
+        np.add.at(count, chart.polygon, 1.0)
+    return total / np.maximum(count, 1.0)
+
+
+def _bounded(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
+    finite = ratio[np.isfinite(ratio)]
+    return np.minimum(ratio, finite.max() if len(finite) else 1.0)
+
+
+def map_numbers(source: CurrentMesh, result: Unwrapped, texcoords: Texcoords) -> dict[str, float]:
+    """What the filter returns."""
+    maps = [chart.map for chart in result.charts if chart.map is not None]
+    done = [chart.distortion for chart in result.charts if chart.distortion is not None]
+    error = np.concatenate([d.angle_error.reshape(-1) for d in done])
+    ratio = np.concatenate([d.quasi_conformal for d in done])
+    new = result.mapped[source.wedges.polygon]
+    return {
+        "charts": len(result.charts),
+        "mapped_charts": len(maps),
+        "faces": len(source.F),
+        "mapped_faces": int(new.sum()),
+        "torn_vertices": int(texcoords.torn.sum()),
+        "angle_error_mean": float(error.mean()),
+        "angle_error_sd": float(error.std()),
+        "angle_error_max": float(error.max()),
+        "quasi_conformal_median": float(np.median(ratio)),
+        "quasi_conformal_max": float(ratio.max()),
+        "conformal_energy": sum(m.conformal_energy for m in maps),
+        "dirichlet_energy": sum(m.dirichlet_energy for m in maps),
+        "flipped_polygons": sum(len(chart.flipped) for chart in result.charts),
+        "lost_to_double": sum(len(m.lost_to_double) for m in maps),
+        "lost_to_float32": _lost_to_float32(texcoords.wedge[new]),
+        "converged_charts": sum(m.converged for m in maps),
+    }
+
+
+def _lost_to_float32(wedge: NDArray[np.float64]) -> int:
+    """Faces (m, 3, 2) without positive area in single precision, which is what MeshLab keeps."""
+    stored = wedge.reshape(-1, 2).astype(np.float32).astype(np.float64)
+    corners = np.arange(len(stored), dtype=np.int32).reshape(-1, 3).T
+    return int((orientation_signs(stored, corners) <= 0).sum())
