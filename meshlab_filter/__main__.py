@@ -1,0 +1,5 @@
+"""``python -m meshlab_filter``."""
+
+from .entry import main
+
+main()
