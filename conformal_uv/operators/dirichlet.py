@@ -57,8 +57,9 @@ class DirichletProblem:
         number[boundary] = np.arange(len(boundary), dtype=np.int32)
         self._blocks(inside, number)
         self.backend = choose_backend(backend)
-        spread = laplacian.weights.max(initial=0.0) / max(float(np.median(laplacian.weights)), 1e-300)
-        self._corrections = CORRECTIONS if spread > WIDE_SPREAD else 0
+        positive = laplacian.weights[laplacian.weights > 0.0]
+        wide = len(positive) > 0 and positive.max() > WIDE_SPREAD * float(np.median(positive))
+        self._corrections = CORRECTIONS if wide else 0
         self._factor: Factorization | None = None
         if len(self.interior):
             self._factor = factorize(self._interior_block(inside, number), backend, progress)
