@@ -118,5 +118,5 @@ def _call(surface: Surface, options: Options) -> dict[str, Any]:
         "center": surface.active if options.center == "ACTIVE" else None,
         "rotation": options.rotation,
         "repair": "auto" if options.repair else "never",
-        "margin": options.margin,
+        "margin": round(options.margin, 6),  # as it was typed; the property is of single precision
     }

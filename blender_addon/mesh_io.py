@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 MOST_UV_LAYERS = 8
 DEFAULT_LAYER = "UVMap"
+TYPES = {("f", 3): "FLOAT_VECTOR", ("f", 2): "FLOAT2", ("i", 1): "INT", ("i", 2): "INT32_2D", ("b", 1): "BOOLEAN"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,9 +141,9 @@ def write_selection(mesh: bpy.types.Mesh, faces: NDArray[np.bool_]) -> None:
     vertices, edges = np.zeros(len(mesh.vertices), dtype=bool), np.zeros(len(mesh.edges), dtype=bool)
     vertices[_attribute(mesh, ".corner_vert", "value", np.int32, len(mesh.loops))[corner]] = True
     edges[read_corner_edges(mesh)[corner]] = True
-    mesh.vertices.foreach_set("select", vertices)
-    mesh.edges.foreach_set("select", edges)
-    mesh.polygons.foreach_set("select", faces)
+    _write_flags(mesh, ".select_vert", "POINT", vertices)
+    _write_flags(mesh, ".select_edge", "EDGE", edges)
+    _write_flags(mesh, ".select_poly", "FACE", faces)
     mesh.update()
 
 
@@ -164,13 +165,27 @@ def new_mesh(arrays: MeshArrays, faces: NDArray[np.bool_], uv: NDArray[np.float3
     return mesh
 
 
+def _write_flags(mesh: bpy.types.Mesh, name: str, domain: str, values: NDArray[np.bool_]) -> None:
+    """Set a boolean attribute. Blender 5.0's Mesh.update makes `.select_edge` of another type: that one is replaced."""
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and attribute.data_type != "BOOLEAN":
+        mesh.attributes.remove(attribute)
+        attribute = None
+    if attribute is None:
+        attribute = mesh.attributes.new(name, "BOOLEAN", domain)
+    attribute.data.foreach_set("value", values)
+
+
 def _attribute(
     mesh: bpy.types.Mesh, name: str, field: str, dtype: type, count: int, width: int = 1
 ) -> NDArray[np.generic]:
-    """Values of an attribute, (count,) or (count, width); zeros where there is none (Blender drops those all False)."""
+    """Values of an attribute, (count,) or (count, width).
+
+    Zeros where there is none of this type: Blender drops those that are all False.
+    """
     attribute = mesh.attributes.get(name)
     values = np.zeros(count * width, dtype=dtype)
-    if attribute is not None and count:
+    if attribute is not None and count and attribute.data_type == TYPES[np.dtype(dtype).kind, width]:
         attribute.data.foreach_get(field, values)
     return values if width == 1 else values.reshape(count, width)
 

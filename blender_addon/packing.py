@@ -70,6 +70,7 @@ def _edited(context: bpy.types.Context, meshes: list[bpy.types.Mesh]) -> Iterato
     try:
         for ob in made:
             context.scene.collection.objects.link(ob)
+        context.view_layer.update()  # new objects can not be selected before
         select_only(context, set(made), made[0])
         bpy.ops.object.mode_set(mode="EDIT")
         yield

@@ -55,11 +55,12 @@ def draw_object(layout, ob):
 def rows(ob):
     """Names and texts of an object's numbers."""
     told = [("Islands", f"{ob.islands - len(ob.failures)} of {ob.islands}")]
-    if ob.angle_mean is not None:
+    quality = ob.quality
+    if quality is not None:
         told += [
-            ("Angle error, mean", f"{ob.angle_mean:.3g}°"),
-            ("Angle error, largest", f"{ob.angle_max:.3g}°"),
-            ("Area ratio", "-" if ob.area_ratio is None else f"{ob.area_ratio:.3g}"),
+            ("Angle error, mean", f"{quality.angle_mean:.3g}°"),
+            ("Angle error, largest", f"{quality.angle_max:.3g}°"),
+            ("Area ratio", "-" if quality.area_ratio is None else f"{quality.area_ratio:.3g}"),
             ("Flipped faces", str(ob.flipped)),
             ("Lost to float32", str(ob.lost_to_float32)),
         ]

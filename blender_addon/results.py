@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -25,11 +26,17 @@ class Failure:
 
 
 @dataclass(frozen=True)
-class ObjectResult:
-    """What came of one object; angles in degrees, over all its unwrapped islands.
+class Quality:
+    """Angle error in degrees over all unwrapped islands; largest over smallest change of a face's area."""
 
-    `area_ratio` is the largest over the smallest of the factors by which faces' areas changed.
-    """
+    angle_mean: float
+    angle_max: float
+    area_ratio: float | None
+
+
+@dataclass(frozen=True)
+class ObjectResult:
+    """What came of one object."""
 
     name: str
     uv_layer: str
@@ -37,12 +44,29 @@ class ObjectResult:
     islands: int = 0
     failures: list[Failure] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
-    triangles: int = 0
-    angle_mean: float | None = None
-    angle_max: float | None = None
-    area_ratio: float | None = None
     flipped: int = 0
     lost_to_float32: int = 0
+    charts: list[Chart] = field(default_factory=list, repr=False)
+
+    @cached_property
+    def quality(self) -> Quality | None:
+        """Measured when first asked for; None where nothing was unwrapped."""
+        distortions = [chart.distortion for chart in self.charts]
+        if not distortions:
+            return None
+        corners = [d.angle_error.size for d in distortions]
+        scales = np.concatenate([d.area_scale for d in distortions])
+        return Quality(
+            angle_mean=float(np.average([d.angle_mean for d in distortions], weights=corners)),
+            angle_max=max(d.angle_max for d in distortions),
+            area_ratio=_ratio(scales),
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        told = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "charts"}
+        told["failures"] = [asdict(failure) for failure in self.failures]
+        return {**told, **(asdict(self.quality) if self.quality else {})}
 
 
 @dataclass(frozen=True)
@@ -100,32 +124,27 @@ class UnwrapResult:
             "islands": self.islands,
             "unwrapped": self.unwrapped,
             "seconds": self.seconds,
-            "objects": [asdict(ob) for ob in self.objects],
+            "objects": [ob.as_dict() for ob in self.objects],
         }
 
 
-def measured(name: str, layer: str, solved: Unwrapped, subdivision: Subdivision | None) -> ObjectResult:
-    """The numbers of one object."""
+def object_result(name: str, layer: str, solved: Unwrapped, subdivision: Subdivision | None) -> ObjectResult:
+    """What came of an object that was solved."""
     done = [chart for chart in solved.charts if chart.map is not None]
-    failures = [Failure(_faces(chart, subdivision), _in_words_of_the_panel(str(chart.error)))
-                for chart in solved.charts if chart.map is None]
-    if not done:
-        return ObjectResult(name, layer, islands=len(solved.charts), failures=failures)
-    distortions = [chart.distortion for chart in done]
-    corners = np.array([d.angle_error.size for d in distortions])
-    scales = np.concatenate([d.area_scale for d in distortions])
+    failures = [
+        Failure(_faces(chart, subdivision), in_words_of_the_panel(str(chart.error)))
+        for chart in solved.charts
+        if chart.map is None
+    ]
     return ObjectResult(
         name,
         layer,
         islands=len(solved.charts),
         failures=failures,
         notes=[note for chart in solved.charts for note in chart.notes] + _unconverged(done),
-        triangles=sum(len(chart.F) for chart in done),
-        angle_mean=float(np.average([d.angle_mean for d in distortions], weights=corners)),
-        angle_max=max(d.angle_max for d in distortions),
-        area_ratio=_ratio(scales),
         flipped=sum(len(chart.flipped) for chart in done),
         lost_to_float32=sum(len(chart.map.lost_to_float32) for chart in done),
+        charts=done,
     )
 
 
@@ -157,7 +176,7 @@ LABELS = {
 }
 
 
-def _in_words_of_the_panel(text: str) -> str:
+def in_words_of_the_panel(text: str) -> str:
     """Advice to pass an argument of the library, as the property that a user can set; what has none is left out."""
 
     def told(match: re.Match[str]) -> str:

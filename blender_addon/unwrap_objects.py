@@ -17,7 +17,7 @@ from .kept_work import KEPT, KeptWork, Key
 from .mesh_io import write_uv
 from .packing import pack_with_blender
 from .properties import Options
-from .results import ObjectResult, UnwrapResult, measured
+from .results import ObjectResult, UnwrapResult, in_words_of_the_panel, object_result
 from .tasks import Task, gather
 
 
@@ -49,7 +49,7 @@ def solve(
         except CancelledError:
             raise
         except ConformalUVError as error:
-            task.refusal = str(error)
+            task.refusal = in_words_of_the_panel(str(error))
     return {task.surface.key(options) for task in todo}
 
 
@@ -92,7 +92,7 @@ def _write(task: Task, uv: np.ndarray, options: Options) -> None:
 def _result(task: Task) -> ObjectResult:
     if task.solved is None:
         return ObjectResult(task.ob.name, task.layer, refusal=task.refusal)
-    return measured(task.ob.name, task.layer, task.solved, task.subdivision)
+    return object_result(task.ob.name, task.layer, task.solved, task.subdivision)
 
 
 def _part(callback: Callback | None, number: int, count: int) -> Callable[[str, float], object] | None:

@@ -1,0 +1,86 @@
+"""`blender --command conformal_uv`: the function behind it, and the batch example."""
+
+from __future__ import annotations
+
+import json
+import runpy
+import sys
+
+import bpy
+import numpy as np
+import pytest
+import scenes
+from conftest import REPOSITORY
+
+
+@pytest.fixture
+def blend(tmp_path):
+    """A file with a good and a closed mesh, saved in Edit Mode with nothing selected."""
+    scenes.primitive("cube")
+    scenes.grid()
+    scenes.edit()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    path = tmp_path / "in.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def run(addon, *arguments):
+    return addon.command.run([str(argument) for argument in arguments])
+
+
+def test_one_object(addon, blend, tmp_path):
+    out, report = tmp_path / "out.blend", tmp_path / "report.json"
+    given = blend.read_bytes()
+    assert run(addon, blend, "-o", out, "--object", "Grid", "--method", "linear", "--json", report) == 0
+    assert blend.read_bytes() == given
+    bpy.ops.wm.open_mainfile(filepath=str(out))
+    import conformal_uv as cuv
+
+    grid = bpy.data.objects["Grid"]
+    expected = cuv.unwrap(*scenes.arrays(grid), method="linear", place="disk").uv
+    np.testing.assert_allclose(scenes.uvs(grid), 0.5 + 0.5 * expected, atol=3e-7)
+    told = json.loads(report.read_text())
+    assert told["summary"] == "Unwrapped 1 of 1 island"
+    assert told["objects"][0]["name"] == "Grid" and told["objects"][0]["angle_mean"] > 0
+
+
+def test_every_mesh_and_a_failure(addon, blend, tmp_path, capfd):
+    out = tmp_path / "out.blend"
+    assert run(addon, blend, "-o", out) == 1
+    assert "Unwrapped 1 of 2 islands of 2 objects; Cube, faces 0, 1, 2 ...: " in capfd.readouterr().out
+    assert out.exists()
+    assert run(addon, blend, "-o", out, "--closed", "cut", "--place", "pack") == 0
+
+
+def test_nothing_done_writes_nothing(addon, blend, tmp_path):
+    assert run(addon, blend, "-o", tmp_path / "out.blend", "--object", "Cube") == 1
+    assert not (tmp_path / "out.blend").exists()
+
+
+def test_wrong_usage(addon, blend, tmp_path, capfd):
+    out = tmp_path / "out.blend"
+    assert run(addon, blend) == 2
+    assert run(addon, blend, "-o", out, "--method", "magic") == 2
+    assert run(addon, "--help") == 0
+    capfd.readouterr()
+    assert run(addon, blend, "-o", out, "--object", "Nobody") == 1
+    assert "no mesh object named Nobody" in capfd.readouterr().err
+    assert run(addon, tmp_path / "missing.blend", "-o", out) == 1
+    assert "missing.blend" in capfd.readouterr().err
+    (tmp_path / "text.blend").write_text("not a file of Blender's")
+    assert run(addon, tmp_path / "text.blend", "-o", out) == 1
+    assert not out.exists()
+
+
+def test_batch_example(addon, blend, tmp_path, monkeypatch, capsys):
+    other = tmp_path / "other.blend"
+    other.write_bytes(blend.read_bytes())
+    folder = tmp_path / "unwrapped"
+    monkeypatch.setattr(sys, "argv", ["python", str(blend), str(other), "--folder", str(folder), "--closed", "CUT"])
+    with pytest.raises(SystemExit) as stop:
+        runpy.run_path(str(REPOSITORY / "examples" / "blender_batch_unwrap.py"), run_name="__main__")
+    assert stop.value.code == 0
+    for path in (folder / "in.blend", folder / "other.blend"):
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        assert np.ptp(scenes.uvs(bpy.data.objects["Grid"]), axis=0) == pytest.approx([1.0, 1.0], abs=0.02)
