@@ -52,7 +52,7 @@ def compute_texcoord_parametrization_conformal_disk(
     seams: ArrayLike | None = None,
     selected_only: bool = False,
     place: str = "fit",
-    margin: float = 0.005,
+    margin: float | None = None,
     backend: str = "auto",
     texture: str | PathLike[str] | None = None,
     quality: str = "none",
@@ -97,7 +97,7 @@ def compute_texcoord_parametrization_conformal_disk(
     place : Enum
         'fit' and 'pack': in the unit square; 'disk': on the unit disk around (0, 0).
     margin : Float
-        Least distance between disks and to the sides of the square.
+        Least distance between disks and to the sides of the square; by default none for one disk, 0.005 for several.
     backend : Enum
         'auto', 'cholmod', 'superlu'.
     texture : File Name
@@ -155,10 +155,14 @@ def map_current_mesh(
 
 
 def _check_mapped(result: Unwrapped) -> None:
-    """Raise where no chart was mapped; log the reasons where some were not."""
-    if not result.mapped.any():
-        if len(result.charts) == 1 and result.charts[0].error is not None:
-            raise result.charts[0].error
-        raise ConformalUVError(result.summary)
-    if any(chart.map is None for chart in result.charts):
-        logger.warning("%s", result.summary)
+    """Raise where no chart was mapped, in one class if all have it; log the reasons where some were not."""
+    errors = [chart.error for chart in result.charts if chart.error is not None]
+    if result.mapped.any():
+        if errors:
+            logger.warning("%s", result.summary)
+        return
+    if len(errors) == 1:
+        raise errors[0]
+    kinds = {type(error) for error in errors}
+    kind = kinds.pop() if len(kinds) == 1 else ConformalUVError
+    raise kind(result.summary, [index for error in errors for index in error.indices])

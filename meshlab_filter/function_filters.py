@@ -7,7 +7,7 @@ saves them unasked.
 
 from __future__ import annotations
 
-from itertools import count
+import contextlib
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,8 @@ from .exceptions import ConformalFilterException
 from .library import pymeshlab
 
 __all__ = ["check_function_filters", "face_variable", "vertex_variable"]
+
+MOST = 10000  # attributes of one name
 
 
 def check_function_filters(ms: Any) -> None:
@@ -47,20 +49,22 @@ def face_variable(mesh: Any, name: str, values: NDArray[np.float64]) -> str:
 
 def _variable(mesh: Any, element: str, name: str, values: NDArray[np.float64]) -> str:
     """The first attribute of this name, numbered, that has these values or is new."""
-    add = getattr(mesh, f"add_{element}_custom_scalar_attribute")
-    read = getattr(mesh, f"{element}_custom_scalar_attribute_array")
-    for number in count():
+    for number in range(MOST):
         attribute = f"conformal_uv_{name}" + (f"_{number}" if number else "")
-        try:
-            kept = read(attribute)
-        except pymeshlab.PyMeshLabException:
-            kept = None
+        kept = _values(mesh, element, attribute)
         if kept is None:
-            try:
+            with contextlib.suppress(pymeshlab.PyMeshLabException):
+                add = getattr(mesh, f"add_{element}_custom_scalar_attribute")
                 add(np.ascontiguousarray(values, dtype=np.float64), attribute)
-            except pymeshlab.PyMeshLabException:  # an attribute of another type has the name
-                continue
+            # an attribute of another type that has the name stays, and no new one comes to be
+            kept = _values(mesh, element, attribute)
+        if kept is not None and np.array_equal(kept, values):
             return attribute
-        if np.array_equal(kept, values):
-            return attribute
-    raise AssertionError("unreachable")
+    raise ConformalFilterException(f"The mesh has {MOST} custom attributes conformal_uv_{name}; load it anew.")
+
+
+def _values(mesh: Any, element: str, attribute: str) -> NDArray[np.float64] | None:
+    try:
+        return np.asarray(getattr(mesh, f"{element}_custom_scalar_attribute_array")(attribute))
+    except pymeshlab.PyMeshLabException:
+        return None
