@@ -171,17 +171,17 @@ LABELS = {
     "closed": ("Closed Surfaces", CLOSED),
     "method": ("Method", METHODS),
     "center": ("Center", CENTERS),
-    "place": ("Place", PLACES),
     "faces": ("Faces", FACES),
 }
+OTHER_WORDS = {"holes": "turn on Fill Holes", "place": f"set Place to {PLACES[1][1]}"}
 
 
 def in_words_of_the_panel(text: str) -> str:
     """Advice to pass an argument of the library, as the property that a user can set; what has none is left out."""
 
     def told(match: re.Match[str]) -> str:
-        if match["name"] == "holes":
-            return "turn on Fill Holes"
+        if match["name"] in OTHER_WORDS:
+            return OTHER_WORDS[match["name"]]
         label, items = LABELS.get(match["name"], ("", ()))
         names = {identifier.lower(): name for identifier, name, _ in items}
         return f"set {label} to {names[match['value']]}" if match["value"] in names else ""

@@ -11,7 +11,6 @@ import argparse
 import sys
 from pathlib import Path
 
-import addon_utils
 import bpy
 
 
@@ -19,6 +18,8 @@ def enable():
     """Make bpy.ops.uv.conformal_unwrap available."""
     if hasattr(bpy.types, "UV_OT_conformal_unwrap"):
         return
+    import addon_utils  # importable once bpy is
+
     if addon_utils.enable("bl_ext.user_default.conformal_uv", handle_error=lambda error: None) is None:
         sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
         import blender_addon

@@ -1,0 +1,28 @@
+"""The tests of tests/blender inside a real Blender, whose Python must have pytest, numpy and scipy.
+
+    blender --background --factory-startup --python tests/run_in_blender.py [-- PYTEST ARGUMENTS]
+"""
+
+import os
+import sys
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent / "blender"
+
+
+def main() -> int:
+    """Run pytest on the folder; its exit code."""
+    try:
+        import pytest
+    except ImportError:
+        sys.stderr.write(f"{sys.executable} has no pytest: install it into Blender's Python\n")
+        return 1
+    os.environ["CONFORMAL_UV_INSIDE_BLENDER"] = "1"
+    given = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    return int(pytest.main(["-c", str(FOLDER / "pytest.ini"), *(given or [str(FOLDER)])]))
+
+
+if __name__ == "__main__":
+    code = main()
+    sys.stdout.flush()
+    os._exit(code)  # Blender would go on, and exit with 0
