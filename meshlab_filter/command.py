@@ -75,6 +75,8 @@ def disk(
     except EXPECTED as error:
         typer.echo(_told(error), err=True)
         raise typer.Exit(1) from error
+    if not quiet and any(file.suffix.lower() == ".off" for file in targets):
+        typer.echo("warning: MeshLab does not read the texture coordinates of .off files back", err=True)
     told = _convert_all(sources, targets, Conversion(texture, filter_script, options), quiet)
     if json_file is not None:
         with replaced_file(json_file) as out:

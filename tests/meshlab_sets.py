@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,16 @@ import pymeshlab
 from numpy.typing import NDArray
 
 TEXCOORDS = ("vertex_tex_coords", "wedge_tex_coords")
+
+_KEPT: list[Any] = []  # a mesh of pymeshlab's dies with its MeshSet, whoever still has it
+
+
+def loaded(path: Path) -> Any:
+    """The mesh of a file, in a MeshSet of its own."""
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(path))
+    _KEPT.append(ms)
+    return ms.current_mesh()
 
 
 def mesh_set(V: NDArray, F: NDArray, label: str = "patient", **more: NDArray) -> Any:
