@@ -31,6 +31,7 @@ from .operators import (
     mixed_voronoi_areas,
     uniform_laplacian,
 )
+from .sphere import SphereMap, sphere_map
 
 __all__ = [
     "CancelledError",
@@ -51,6 +52,7 @@ __all__ = [
     "OptionError",
     "OrientationError",
     "SolverError",
+    "SphereMap",
     "TopologyError",
     "UnreferencedVertexError",
     "Unwrapped",
@@ -63,6 +65,7 @@ __all__ = [
     "face_areas",
     "gradient",
     "mixed_voronoi_areas",
+    "sphere_map",
     "uniform_laplacian",
     "unwrap",
 ]

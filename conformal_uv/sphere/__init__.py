@@ -1,0 +1,6 @@
+"""Maps of closed genus-0 surfaces onto the unit sphere."""
+
+from .result import SphereMap
+from .sphere_map import sphere_map
+
+__all__ = ["SphereMap", "sphere_map"]

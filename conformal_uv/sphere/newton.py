@@ -1,0 +1,162 @@
+"""Newton's method for the conformal energy on the sphere, the centre of mass held in the middle."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..disk.newton import NewtonStep
+from ..operators.dirichlet import DirichletProblem
+from ..progress import Progress
+from .centring import centred
+from .energy import SphereEnergy
+
+__all__ = ["SphereNewton", "minimise_sphere_energy"]
+
+Real = NDArray[np.float64]
+
+MOST_CG_STEPS = 100
+VOLUME_KEPT = 0.95  # of the signed volume, by one step
+SUFFICIENT_DECREASE = 1e-4
+EPS = np.finfo(np.float64).eps
+
+
+class SphereNewton(NamedTuple):
+    """Positions (n, 3), the steps, and whether the tolerance was reached."""
+
+    x: Real
+    history: tuple[NewtonStep, ...]
+    converged: bool
+
+
+class _Held:
+    """Tangent directions that keep the centre of mass, and the inverse Laplacian on them.
+
+    The six Moebius freedoms: the three that move the centre of mass are constraints, the three rotations leave the
+    energy alone, so that the gradient has no part in them.
+    """
+
+    def __init__(self, energy: SphereEnergy, mass: Real, problem: DirichletProblem) -> None:
+        self._energy, self._problem = energy, problem
+        axes = [energy.tangent(mass[:, None] * np.eye(3)[k]).reshape(-1) for k in range(3)]
+        self._basis, _ = np.linalg.qr(np.column_stack(axes))
+        self._image = np.column_stack([self._smooth(column) for column in self._basis.T])
+        self._gram = self._basis.T @ self._image
+
+    def project(self, vectors: Real) -> Real:
+        """Orthogonal projection of tangent vectors (n, 3)."""
+        flat = vectors.reshape(-1)
+        return (flat - self._basis @ (self._basis.T @ flat)).reshape(-1, 3)
+
+    def precondition(self, residual: Real) -> Real:
+        """The free direction d that minimises 1/2 d' L d - residual' d."""
+        free = self._smooth(residual.reshape(-1))
+        held = free - self._image @ np.linalg.solve(self._gram, self._basis.T @ free)
+        return self.project(held.reshape(-1, 3))  # once more, against rounding
+
+    def _smooth(self, residual: Real) -> Real:
+        """Pseudo-inverse of the Laplacian, grounded at one vertex, between projections to the sphere."""
+        rows = residual.reshape(-1, 3)
+        rows = rows - rows.mean(axis=0)
+        out = np.zeros_like(rows)
+        out[self._problem.interior] = self._problem.solve(rows[self._problem.interior])
+        return self._energy.tangent(out - out.mean(axis=0)).reshape(-1)
+
+
+def minimise_sphere_energy(
+    start: SphereEnergy,
+    problem: DirichletProblem,
+    mass: Real,
+    *,
+    tolerance: float,
+    max_iterations: int,
+    progress: Progress,
+) -> SphereNewton:
+    """Minimise the energy among maps whose centre of mass is 0.
+
+    Truncated conjugate gradients inside (Steihaug 1983), a line search outside; after every step a Moebius map brings
+    the centre of mass back. A step that would uncover part of the sphere, by the signed volume, is not taken.
+
+    Parameters
+    ----------
+    start : SphereEnergy
+        At a map with its centre of mass at 0.
+    problem : DirichletProblem
+        The Laplacian grounded at one vertex.
+    mass : (n,) float64
+        Sum 1.
+    """
+    history: list[NewtonStep] = []
+    energy, first = start, None
+    for iteration in range(max_iterations + 1):
+        held = _Held(energy, mass, problem)
+        gradient = held.project(energy.gradient)
+        norm = float(np.linalg.norm(gradient))
+        first = first or norm
+        progress("newton", 1.0 if norm <= tolerance else _fraction(norm, first, tolerance))
+        if norm <= tolerance or iteration == max_iterations:
+            break
+        direction, steps = _direction(energy, held, gradient, tolerance)
+        found = _line_search(energy, held, mass, direction, gradient)
+        if found is None:
+            break
+        length, better = found
+        history.append(NewtonStep(energy.value, norm, steps, length))
+        energy = better
+    history.append(NewtonStep(energy.value, norm, 0, 0.0))
+    return SphereNewton(energy.x, tuple(history), bool(norm <= tolerance))
+
+
+def _direction(energy: SphereEnergy, held: _Held, gradient: Real, tolerance: float) -> tuple[Real, int]:
+    norm = float(np.linalg.norm(gradient))
+    goal = max(min(0.1, np.sqrt(norm)) * norm, 0.3 * tolerance)
+    direction = np.zeros_like(gradient)
+    residual = -gradient
+    smooth = held.precondition(residual)
+    search, product = smooth, float(np.vdot(residual, smooth))
+    for step in range(1, MOST_CG_STEPS + 1):
+        image = held.project(energy.hessian_product(search))
+        curvature = float(np.vdot(search, image))
+        if curvature <= 1e-10 * product:
+            return (direction if step > 1 else smooth), step
+        length = product / curvature
+        direction = direction + length * search
+        residual = residual - length * image
+        if np.linalg.norm(residual) <= goal:
+            break
+        smooth = held.precondition(residual)
+        product, previous = float(np.vdot(residual, smooth)), product
+        search = smooth + (product / previous) * search
+    return direction, step
+
+
+def _line_search(
+    energy: SphereEnergy, held: _Held, mass: Real, direction: Real, gradient: Real
+) -> tuple[float, SphereEnergy] | None:
+    slope, norm = float(np.vdot(gradient, direction)), float(np.linalg.norm(gradient))
+    noise = 64.0 * EPS * (abs(energy.value) + 4.0 * np.pi)
+    least = VOLUME_KEPT * _volume(energy)
+    length = 1.0
+    for _ in range(30):
+        moved = SphereEnergy(energy.laplacian, energy.corners, energy.x + length * direction)
+        trial = SphereEnergy(energy.laplacian, energy.corners, centred(moved.x, mass))
+        change = trial.value - energy.value
+        if _volume(trial) >= least:
+            if change <= SUFFICIENT_DECREASE * length * slope and change < -noise:
+                return length, trial
+            if abs(change) <= noise and np.linalg.norm(held.project(trial.tangent(trial.gradient))) < norm:
+                return length, trial
+        length *= 0.5
+    return None
+
+
+def _volume(energy: SphereEnergy) -> float:
+    """Six times the signed volume of the image."""
+    a, b, c = (energy.x[corner] for corner in energy.corners)
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)))
+
+
+def _fraction(norm: float, first: float, tolerance: float) -> float:
+    return float(np.clip(np.log(first / norm) / np.log(first / tolerance), 0.0, 1.0))

@@ -1,0 +1,73 @@
+"""A closed surface opened at a vertex, so that the disk's map can begin the sphere's."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..disk.gauge import CentreGauge
+from ..disk.harmonic_measure import centred_measure
+from ..mesh.surface import Surface
+from ..operators.areas import lumped_areas
+from ..operators.dirichlet import DirichletProblem
+from ..operators.edge_laplacian import edge_laplacian
+from ..progress import Progress
+from .stereographic import from_plane
+
+__all__ = ["linear_sphere", "most_regular_vertex"]
+
+Real = NDArray[np.float64]
+
+DEGREE_PENALTY = np.radians(20.0)  # for each edge more or less than six
+
+
+def most_regular_vertex(surface: Surface) -> int:
+    """The vertex whose star is nearest to six equilateral triangles; among equals the flattest.
+
+    Its star is what the linear map can not see; a sliver's corner there would spoil the whole map.
+    """
+    angle = np.arctan2(surface.geometry.double_area, surface.geometry.dot)
+    deviation = np.abs(angle - np.pi / 3.0).max(axis=0)
+    worst = np.zeros(surface.n)
+    for corner in surface.corners:
+        np.maximum.at(worst, corner, deviation)
+    place = surface.corners.reshape(-1)
+    degree = np.bincount(place, minlength=surface.n)
+    defect = 2.0 * np.pi - np.bincount(place, weights=angle.reshape(-1), minlength=surface.n)
+    irregular = np.round(worst + DEGREE_PENALTY * np.abs(degree - 6), 6)  # equal but for rounding: the flattest
+    return int(np.lexsort((np.abs(defect), irregular))[0])
+
+
+def linear_sphere(surface: Surface, laplacian: str, backend: str, progress: Progress) -> Real:
+    """Positions (n, 3) on the unit sphere from one factorization.
+
+    The surface without the star of its most regular vertex goes to the disk by harmonic measure, is scaled so that
+    half of its area lies within the unit circle, and goes to the sphere by stereographic projection; the vertex
+    itself to the pole.
+    """
+    vertex = most_regular_vertex(surface)
+    keep = (surface.corners != vertex).all(axis=0)
+    rest = np.delete(np.arange(surface.n), vertex)
+    number = np.full(surface.n, -1, dtype=np.int64)
+    number[rest] = np.arange(len(rest))
+    disk = Surface.from_arrays(surface.V[rest], number[surface.corners[:, keep]].T)
+    progress("assembly", 0.0)
+    edges = edge_laplacian(disk.corners, disk.edges, disk.geometry, disk.n, laplacian)
+    problem = DirichletProblem(edges, disk.require_disk(), disk.n, backend=backend, progress=progress)
+    progress("linear", 0.0)
+    measure = centred_measure(disk, problem)
+    theta = CentreGauge(measure.vertex_measure, measure.theta).restore(measure.theta)
+    z = problem.extend(np.exp(1j * theta))
+    z /= _half_area_radius(np.abs(z), lumped_areas(disk.geometry, disk.corners, disk.n))
+    xyz = np.empty((surface.n, 3))
+    xyz[rest] = from_plane(z)
+    xyz[vertex] = (0.0, 0.0, 1.0)
+    return xyz
+
+
+def _half_area_radius(radius: Real, area: Real) -> float:
+    """The radius within which half of the area lies."""
+    order = np.argsort(radius)
+    within = np.cumsum(area[order])
+    half = radius[order[np.searchsorted(within, 0.5 * within[-1])]]
+    return float(half) if half > 0.0 else 1.0

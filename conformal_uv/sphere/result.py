@@ -1,0 +1,68 @@
+"""The result of a map to the sphere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..disk.newton import NewtonStep
+from ..mesh.surface import Surface
+from ..operators.distortion import Distortion, distortion_of
+
+__all__ = ["SphereMap"]
+
+
+@dataclass(frozen=True, eq=False)
+class SphereMap:
+    """A map of a closed surface to the unit sphere.
+
+    Attributes
+    ----------
+    xyz : (n, 3) float64
+        Position of every vertex, ``|xyz| = 1`` to 1e-12, the surface's outside outside.
+    dirichlet_energy : float
+        1/2 tr(xyz' L xyz), L the Laplacian that was solved with.
+    conformal_energy : float
+        Dirichlet energy minus the area of the image polyhedron.
+    signed_volume : float
+        Of the image polyhedron; near 4 pi / 3 for a map that covers the sphere once with its orientation kept.
+    flipped : (k,) int64
+        Faces that are not anticlockwise seen from outside the sphere.
+    converged : bool
+        Whether the method reached its tolerance; always true of "linear", which does not iterate.
+    history : tuple of NewtonStep
+        A row for each iteration; empty for "linear".
+    repaired : int
+        Number of inverted faces that were unfolded.
+    method, normalization, laplacian : str
+        What was solved, how the Moebius freedom was fixed, and which weights were used.
+    """
+
+    xyz: NDArray[np.float64]
+    dirichlet_energy: float
+    conformal_energy: float
+    signed_volume: float
+    flipped: NDArray[np.int64]
+    converged: bool
+    history: tuple[NewtonStep, ...]
+    repaired: int
+    method: str
+    normalization: str
+    laplacian: str
+    surface: Surface = field(repr=False)
+
+    @cached_property
+    def distortion(self) -> Distortion:
+        """Angle error, quasi-conformal ratio and area scale of every face (area in units of V squared).
+
+        A surface whose boundary was capped is measured with its caps.
+        """
+        return distortion_of(self.surface.geometry, self.surface.corners, self.xyz, self.surface.unit)
+
+    @property
+    def gradient_norm(self) -> float | None:
+        """Norm of the projected gradient at the end of Newton's method; None for "linear"."""
+        return self.history[-1].gradient_norm if self.history else None
