@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from meshes_closed import icosphere
 
 import conformal_uv as cuv
 from conformal_uv.files import read_mesh
@@ -273,3 +274,46 @@ def test_crowding_is_warned_of(tmp_path: Path):
     done = run("disk", tmp_path / "ribbon.obj", tmp_path / "out.obj", "--method", "linear")
     told = " ".join(done.stdout.split())  # lines are folded to the terminal
     assert "crowded" in told and "single precision" in told
+
+
+def sphere_file(path: Path) -> Path:
+    V, F = icosphere(2)
+    text = "".join("v {:.17g} {:.17g} {:.17g}\n".format(*v) for v in V * [1.0, 1.2, 1.6])
+    path.write_text(text + "v 9 9 9\n" + "".join("f {} {} {}\n".format(*(f + 1)) for f in F))
+    return path
+
+
+def test_sphere_writes_positions_numbers_and_a_picture(tmp_path: Path):
+    """A vertex in no face does not matter and stays where it is."""
+    source = sphere_file(tmp_path / "egg.obj")
+    done = run("sphere", source, tmp_path / "out.obj", "--json", tmp_path / "out.json", "--plot", tmp_path / "p.png")
+    V, F = icosphere(2)
+    expected = cuv.sphere_map(V * [1.0, 1.2, 1.6], F)
+    written = read_mesh(tmp_path / "out.obj")
+    np.testing.assert_array_equal(written.mesh.V[:-1], expected.xyz)
+    np.testing.assert_array_equal(written.mesh.V[-1], [9, 9, 9])
+    np.testing.assert_array_equal(written.mesh.corners.reshape(-1, 3), F)
+    numbers = json.loads((tmp_path / "out.json").read_text())
+    assert numbers["conformal_energy"] == expected.conformal_energy and numbers["flipped_faces"] == 0
+    assert numbers["signed_volume"] == expected.signed_volume
+    assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+    assert "angle error" in done.stdout
+
+
+@pytest.mark.parametrize("layout", ["equirectangular", "octahedral"])
+def test_sphere_layout_has_a_proper_seam(tmp_path: Path, layout: str):
+    """No triangle is torn: all have positive area, and together they fill the square but for what poles lose."""
+    source = sphere_file(tmp_path / "egg.obj")
+    run("sphere", source, tmp_path / "out.npz", "--uv", layout, "-q")
+    uv = np.load(tmp_path / "out.npz")["corner_uv"].reshape(-1, 3, 2)
+    a, b, c = uv.transpose(1, 0, 2)
+    area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    assert area.min() > 0
+    assert area.max() < 0.1  # a torn triangle would span half the square
+    assert 0.8 < area.sum() < 1.05
+
+
+def test_sphere_refuses_a_disk(surface: Path, tmp_path: Path):
+    done = run("sphere", surface, tmp_path / "out.obj", check=1)
+    assert done.stderr.startswith("TopologyError:") and "disk_map" in done.stderr
+    assert list(tmp_path.iterdir()) == []

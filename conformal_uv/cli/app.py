@@ -13,6 +13,7 @@ from ..errors import ConformalUVError
 from .disk import disk
 from .report import report
 from .sample import sample
+from .sphere import sphere
 
 __all__ = ["app"]
 
@@ -20,7 +21,7 @@ P = ParamSpec("P")
 
 app = typer.Typer(
     name="conformal-uv",
-    help="Map surfaces to the unit disk with their angles kept.",
+    help="Map surfaces to the unit disk or sphere with their angles kept.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
@@ -56,8 +57,8 @@ def options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
     ] = False,
 ) -> None:
-    """Map surfaces to the unit disk with their angles kept."""
+    """Map surfaces to the unit disk or sphere with their angles kept."""
 
 
-for command in (disk, report, sample):
+for command in (disk, sphere, report, sample):
     app.command()(_told(command))

@@ -11,11 +11,15 @@ __all__ = [
     "Laplacian",
     "Method",
     "NonManifold",
+    "Normalization",
     "Objective",
     "Orientation",
     "PinMode",
     "Place",
     "Repair",
+    "Rotation",
+    "SphereLayout",
+    "SphereMethod",
 ]
 
 
@@ -97,3 +101,34 @@ class Place(StrEnum):
 
     FIT = "fit"
     PACK = "pack"
+
+
+class SphereMethod(StrEnum):
+    """--method of the sphere"""
+
+    NEWTON = "newton"
+    LINEAR = "linear"
+
+
+class Normalization(StrEnum):
+    """--normalization"""
+
+    AREA = "area"
+    CENTRE = "centre"
+    NONE = "none"
+
+
+class Rotation(StrEnum):
+    """--rotation"""
+
+    PRINCIPAL = "principal"
+    SURFACE = "surface"
+    NONE = "none"
+
+
+class SphereLayout(StrEnum):
+    """--uv"""
+
+    NONE = "none"
+    EQUIRECTANGULAR = "equirectangular"
+    OCTAHEDRAL = "octahedral"

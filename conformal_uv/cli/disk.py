@@ -14,21 +14,12 @@ from ..errors import ConformalUVError
 from ..files import check_writable, read_mesh, replaced_file, write_mesh
 from . import choices
 from .figure import check_drawable, draw_unwrapped
+from .numbers import three_numbers
 from .seams import read_seams
 from .stages import Stages
 from .summary import print_summary, unwrapped_summary
 
 __all__ = ["disk"]
-
-
-def _three(text: str | None) -> list[int] | None:
-    if text is None:
-        return None
-    try:
-        a, b, c = (int(part) for part in text.split(","))
-    except ValueError as error:
-        raise typer.BadParameter(f"{text!r} is not three vertex numbers, such as 0,31,62") from error
-    return [a, b, c]
 
 
 def disk(
@@ -72,7 +63,7 @@ def disk(
     One surface fills the unit square of texture space: u, v = 0.5 + 0.5 (x, y). Several charts (pieces, or parts
     between seams) are packed into it.
     """
-    pinned = _three(pins)
+    pinned = three_numbers(pins)
     check_writable(target)
     if plot is not None:
         check_drawable(plot)

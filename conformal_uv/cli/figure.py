@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from ..charts import Chart, Unwrapped
 from ..errors import MissingDependencyError, OptionError
 from ..files import replaced_file
+from ..operators import Distortion
+from ..sphere import SphereMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["check_drawable", "draw_unwrapped"]
+__all__ = ["check_drawable", "draw_sphere_map", "draw_unwrapped"]
 
 SUFFIXES = (".png", ".pdf", ".svg")
 
@@ -49,13 +51,58 @@ def draw_unwrapped(path: Path, result: Unwrapped, title: str) -> None:
     edges = {"edgecolors": "0.25", "linewidths": 0.3 if count > 2000 else 0.6} if count <= DETAILED else {}
     _add_faces(middle, image, shade, **edges)
     middle.set_title(_caption(charts))
-    _draw_error(figure, right, charts, image)
+    _draw_faces_by_error(figure, right, _joined(charts), image, np.arange(count))
     for axes in (left, middle, right):
         axes.set_aspect("equal")
         axes.set_axis_off()
         axes.autoscale_view()
     with replaced_file(path) as out:
         figure.savefig(out, format=path.suffix[1:].lower())
+
+
+def draw_sphere_map(path: Path, result: SphereMap, title: str) -> None:
+    """Draw a closed surface and its sphere from two sides in the same colours, and the angle error on the sphere."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(15, 5.4), dpi=130, layout="constrained")
+    axes = figure.subplots(1, 3)
+    F, xyz = result.surface.F, result.xyz
+    middle = xyz[F].mean(axis=1)
+    hue = 0.5 + 0.45 * middle / np.linalg.norm(middle, axis=1, keepdims=True)
+    hue = np.column_stack((hue, np.ones(len(F))))
+    for place, positions in ((axes[0], result.surface.V), (axes[1], xyz)):
+        flat, depth, shade = _view(positions[F])
+        far_first = np.argsort(depth)
+        _add_faces(place, flat[far_first], (hue * np.sqrt(shade))[far_first])
+    axes[0].set_title(f"{title}: {len(xyz)} vertices")
+    axes[1].set_title(f"{result.method} map, conformal energy {result.conformal_energy:.3g}")
+    flat, depth, _ = _view(xyz[F])
+    far_first = np.argsort(depth)
+    _draw_faces_by_error(figure, axes[2], result.distortion, flat, far_first)
+    for place in axes:
+        place.set_aspect("equal")
+        place.set_axis_off()
+        place.autoscale_view()
+    with replaced_file(path) as out:
+        figure.savefig(out, format=path.suffix[1:].lower())
+
+
+def _draw_faces_by_error(
+    figure: Any, axes: Axes, measured: Distortion, image: NDArray[np.float64], order: NDArray[np.int64]
+) -> None:
+    from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    error = measured.angle_error.mean(axis=1)
+    norm = Normalize(0.0, max(float(np.percentile(error, 99)), 1e-6))
+    colours = colormaps["viridis"](norm(error))
+    colours[measured.flipped] = [0.9, 0.1, 0.1, 1.0]
+    _add_faces(axes, image[order], colours[order])
+    bar = figure.colorbar(ScalarMappable(norm, "viridis"), ax=axes, shrink=0.75, extend="max")
+    bar.set_label("angle error, degrees (mean of a face)")
+    told = f"angle error: mean {measured.angle_mean:.3g}, max {measured.angle_max:.3g} degrees"
+    axes.set_title(f"{told}; {len(measured.flipped)} flipped (red)" if len(measured.flipped) else told)
 
 
 def _in_texture(chart: Chart) -> NDArray[np.float64]:
@@ -92,23 +139,16 @@ def _view(
     return turned[:, :, :2], turned[:, :, 2].mean(axis=1), colour
 
 
-def _draw_error(figure: Any, axes: Axes, charts: list[Chart], image: NDArray[np.float64]) -> None:
-    from matplotlib import colormaps
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-
-    measured = [chart.distortion for chart in charts if chart.distortion is not None]
-    error = np.concatenate([d.angle_error.mean(axis=1) for d in measured])
-    largest = max(d.angle_max for d in measured)
-    flipped = np.concatenate([np.isin(np.arange(len(d.area_scale)), d.flipped) for d in measured])
-    norm = Normalize(0.0, max(float(np.percentile(error, 99)), 1e-6))
-    colours = colormaps["viridis"](norm(error))
-    colours[flipped] = [0.9, 0.1, 0.1, 1.0]
-    _add_faces(axes, image, colours)
-    bar = figure.colorbar(ScalarMappable(norm, "viridis"), ax=axes, shrink=0.75, extend="max")
-    bar.set_label("angle error, degrees (mean of a face)")
-    told = f"angle error: mean {error.mean():.3g}, max {largest:.3g} degrees"
-    axes.set_title(f"{told}; {flipped.sum()} flipped (red)" if flipped.any() else told)
+def _joined(charts: list[Chart]) -> Distortion:
+    """Distortion of all charts' triangles together."""
+    parts = [chart.distortion for chart in charts if chart.distortion is not None]
+    first = np.cumsum([0] + [len(part.area_scale) for part in parts[:-1]])
+    return Distortion(
+        np.concatenate([part.angle_error for part in parts]),
+        np.concatenate([part.quasi_conformal for part in parts]),
+        np.concatenate([part.area_scale for part in parts]),
+        np.concatenate([part.flipped + start for part, start in zip(parts, first, strict=True)]),
+    )
 
 
 def _add_faces(axes: Axes, polygons: NDArray[np.float64], colours: NDArray[np.float64], **edges: Any) -> None:

@@ -14,7 +14,7 @@ from ..charts import Chart, Unwrapped
 from ..disk import DiskMap
 from ..operators import Distortion
 
-__all__ = ["distortion_summary", "print_rows", "print_summary", "unwrapped_summary"]
+__all__ = ["angles_text", "distortion_summary", "iterations_text", "print_rows", "print_summary", "unwrapped_summary"]
 
 MOST_LISTED = 1000  # faces written to JSON
 MOST_CHARTS = 20  # rows printed
@@ -105,7 +105,7 @@ def print_summary(summary: dict[str, Any]) -> None:
         rows += [("charts", summary["summary"])]
         rows += [(f"chart {chart['chart']}", _chart_line(chart)) for chart in charts[:MOST_CHARTS]]
         rows += [("", f"and {len(charts) - MOST_CHARTS} more")] if len(charts) > MOST_CHARTS else []
-    rows += [("angle error", _angles(angle)), ("flipped faces", str(summary["flipped_faces"]))]
+    rows += [("angle error", angles_text(angle)), ("flipped faces", str(summary["flipped_faces"]))]
     rows += [("warning", text) for text in _warnings(charts)]
     rows += [
         ("seconds", ", ".join(f"{stage} {spent:.2f}" for stage, spent in summary["seconds"].items())),
@@ -127,7 +127,7 @@ def print_rows(rows: list[tuple[str, str]]) -> None:
 def _map_rows(chart: dict[str, Any]) -> list[tuple[str, str]]:
     rows = [
         ("method", "{method}, {objective} energy, {laplacian} Laplacian, {backend}".format(**chart)),
-        ("iterations", _iterations(chart)),
+        ("iterations", iterations_text(chart)),
         ("conformal energy", f"{chart['conformal_energy']:.6g}"),
         ("Dirichlet energy", f"{chart['dirichlet_energy']:.6g}"),
     ]
@@ -141,16 +141,18 @@ def _map_rows(chart: dict[str, Any]) -> list[tuple[str, str]]:
 def _chart_line(chart: dict[str, Any]) -> str:
     if chart["status"] == "failed":
         return f"{chart['faces']} faces, not mapped"
-    text = f"{chart['faces']} faces; {_iterations(chart)}; energy {chart['conformal_energy']:.4g}; angle error "
-    text += _angles(chart["angle_error_degrees"])
+    text = f"{chart['faces']} faces; {iterations_text(chart)}; energy {chart['conformal_energy']:.4g}; angle error "
+    text += angles_text(chart["angle_error_degrees"])
     return "; ".join([text, *chart["notes"]])
 
 
-def _angles(angle: dict[str, float]) -> str:
+def angles_text(angle: dict[str, float]) -> str:
+    """Mean, standard deviation and maximum of the angle error in words."""
     return "mean {mean:.4g}, sd {sd:.4g}, max {max:.4g} degrees".format(**angle)
 
 
-def _iterations(chart: dict[str, Any]) -> str:
+def iterations_text(chart: dict[str, Any]) -> str:
+    """What the iteration took and where it ended."""
     history = chart["history"]
     if not history:
         return "no iterations needed"

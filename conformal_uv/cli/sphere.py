@@ -1,0 +1,145 @@
+"""conformal-uv sphere: a closed mesh in, its conformal image on the unit sphere out."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from numpy.typing import NDArray
+
+from .._version import __version__
+from ..files import MeshFile, check_writable, read_mesh, replaced_file, write_mesh
+from ..mesh.polygons import PolygonMesh
+from ..mesh.triangulate import triangulate
+from ..sphere import SphereMap, sphere_map
+from ..sphere.layout import equirectangular, octahedral
+from . import choices
+from .figure import check_drawable, draw_sphere_map
+from .numbers import three_numbers
+from .stages import Stages
+from .summary import angles_text, distortion_summary, iterations_text, print_rows
+
+__all__ = ["sphere"]
+
+
+def sphere(
+    source: Annotated[Path, typer.Argument(metavar="IN", help="Closed mesh: OBJ, PLY, OFF, STL or NPZ.")],
+    target: Annotated[Path, typer.Argument(metavar="OUT", help="Mesh on the unit sphere: OBJ, PLY or NPZ.")],
+    method: Annotated[choices.SphereMethod, typer.Option(help="How the map is found.")] = choices.SphereMethod.NEWTON,
+    normalization: Annotated[
+        choices.Normalization, typer.Option(help="What is brought to the middle of the ball.")
+    ] = choices.Normalization.AREA,
+    rotation: Annotated[choices.Rotation, typer.Option(help="How the sphere is turned.")] = choices.Rotation.PRINCIPAL,
+    landmarks: Annotated[
+        str | None,
+        typer.Option(metavar="A,B,C", help="Vertices (from 0) sent to the south pole, (1, 0, 0) and the north pole."),
+    ] = None,
+    laplacian: Annotated[choices.Laplacian, typer.Option(help="Weights.")] = choices.Laplacian.AUTO,
+    repair: Annotated[choices.Repair, typer.Option(help="Inverted triangles.")] = choices.Repair.AUTO,
+    backend: Annotated[choices.Backend, typer.Option(help="Factorization library.")] = choices.Backend.AUTO,
+    uv: Annotated[choices.SphereLayout, typer.Option(help="UVs to write.")] = choices.SphereLayout.NONE,
+    json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw the surface and its sphere in the same colours.")
+    ] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar and no table.")] = False,
+) -> None:
+    """Map a closed surface of genus 0 onto the unit sphere.
+
+    OUT has the faces of IN and the positions on the sphere; its UVs are those of --uv, if any.
+    """
+    marks = three_numbers(landmarks)
+    check_writable(target)
+    if plot is not None:
+        check_drawable(plot)
+    with Stages(quiet=quiet) as stages:
+        stages("read", 0.0)
+        mesh = read_mesh(source).mesh
+        V, F = _compact(mesh)
+        result = sphere_map(
+            V,
+            F,
+            method=method.value,
+            normalization=normalization.value,
+            rotation=rotation.value,
+            landmarks=marks,
+            laplacian=laplacian.value,
+            repair=repair.value,
+            backend=backend.value,
+            callback=stages,
+        )
+        stages("distortion", 0.0)
+        summary = _summary(result, str(source), str(target), stages.seconds)
+        stages("write", 0.0)
+        image = replace(mesh, V=_on_all(result.xyz, mesh))
+        write_mesh(target, MeshFile(target, image), corner_uv=_layout(uv, image))
+        if plot is not None:
+            stages("plot", 0.0)
+            draw_sphere_map(plot, result, source.name)
+    if json_file is not None:
+        with replaced_file(json_file) as out:
+            out.write(json.dumps(summary, indent=2).encode())
+    if not quiet:
+        _print(summary)
+
+
+def _compact(mesh: PolygonMesh) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices in use and triangles over them."""
+    F, _, _ = triangulate(mesh)
+    used, F = np.unique(F, return_inverse=True)
+    return mesh.V[used], F.reshape(-1, 3)
+
+
+def _on_all(xyz: NDArray[np.float64], mesh: PolygonMesh) -> NDArray[np.float64]:
+    """Positions for all vertices of the file; those in no face stay where they are."""
+    V = mesh.V.copy()
+    V[np.unique(mesh.corners)] = xyz
+    return V
+
+
+def _layout(uv: choices.SphereLayout, image: PolygonMesh) -> NDArray[np.float64]:
+    if uv is choices.SphereLayout.NONE:
+        return np.full((len(image.corners), 2), np.nan)
+    return (equirectangular if uv is choices.SphereLayout.EQUIRECTANGULAR else octahedral)(image.V, image)
+
+
+def _summary(result: SphereMap, source: str, target: str, seconds: dict[str, float]) -> dict[str, Any]:
+    return {
+        "conformal_uv": __version__,
+        "input": source,
+        "output": target,
+        "mesh": {"vertices": result.surface.n, "triangles": result.surface.m},
+        "method": result.method,
+        "normalization": result.normalization,
+        "laplacian": result.laplacian,
+        "converged": result.converged,
+        "iterations": len(result.history),
+        "history": [row._asdict() for row in result.history],
+        "conformal_energy": result.conformal_energy,
+        "dirichlet_energy": result.dirichlet_energy,
+        "signed_volume": result.signed_volume,
+        **distortion_summary([result.distortion]),
+        "flipped_faces": len(result.flipped),
+        "repaired_faces": result.repaired,
+        "seconds": seconds,
+    }
+
+
+def _print(summary: dict[str, Any]) -> None:
+    mesh = summary["mesh"]
+    print_rows(
+        [
+            ("mesh", f"{mesh['vertices']} vertices, {mesh['triangles']} triangles"),
+            ("method", "{method}, {laplacian} Laplacian, centred by {normalization}".format(**summary)),
+            ("iterations", iterations_text(summary)),
+            ("conformal energy", f"{summary['conformal_energy']:.6g}"),
+            ("angle error", angles_text(summary["angle_error_degrees"])),
+            ("flipped faces", "{flipped_faces} ({repaired_faces} repaired)".format(**summary)),
+            ("seconds", ", ".join(f"{stage} {spent:.2f}" for stage, spent in summary["seconds"].items())),
+            ("output", summary["output"]),
+        ]
+    )

@@ -1,0 +1,51 @@
+"""The sphere laid out in the unit square: texture coordinates for every polygon corner, torn where they must be."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.polygons import PolygonMesh
+
+__all__ = ["equirectangular", "octahedral"]
+
+Real = NDArray[np.float64]
+
+
+def equirectangular(xyz: Real, mesh: PolygonMesh) -> Real:
+    """Longitude and latitude, (k, 2): u in turns from -x eastwards, v from the south pole.
+
+    A polygon across the seam lies wholly on its east side, with u beyond 1, where a repeating texture goes on; a
+    corner at a pole takes the mean longitude of its polygon's others.
+    """
+    x, y, z = xyz[mesh.corners].T
+    u = 0.5 + np.arctan2(y, x) / (2.0 * np.pi)
+    v = 0.5 + np.arcsin(np.clip(z, -1.0, 1.0)) / np.pi
+    polygon = np.repeat(np.arange(len(mesh.sizes)), mesh.sizes)
+    pole = np.hypot(x, y) < 1e-12
+    least = np.full(len(mesh.sizes), np.inf)
+    most = np.full(len(mesh.sizes), -np.inf)
+    np.minimum.at(least, polygon[~pole], u[~pole])
+    np.maximum.at(most, polygon[~pole], u[~pole])
+    across = (most - least)[polygon] > 0.5
+    u = np.where(across & (u < 0.5), u + 1.0, u)
+    count = np.bincount(polygon, weights=~pole, minlength=len(mesh.sizes))
+    mean = np.bincount(polygon, weights=np.where(pole, 0.0, u), minlength=len(mesh.sizes)) / np.maximum(count, 1.0)
+    return np.column_stack((np.where(pole, mean[polygon], u), v))
+
+
+def octahedral(xyz: Real, mesh: PolygonMesh) -> Real:
+    """The octahedron unfolded to a square, (k, 2): the northern half in the middle, the southern in the corners.
+
+    Each polygon lies in the plane of the octahedron's face that holds its middle, so that none is torn (Meyer,
+    Suessmuth, Sussner, Stamminger, Greiner 2010).
+    """
+    corner = xyz[mesh.corners]
+    middle = np.add.reduceat(corner, mesh.starts[:-1], axis=0)
+    sign = np.repeat(np.where(middle < 0.0, -1.0, 1.0), mesh.sizes, axis=0)
+    flat = corner / np.maximum((sign * corner).sum(axis=1, keepdims=True), 1e-12)
+    x, y = flat[:, 0], flat[:, 1]
+    south = sign[:, 2] < 0.0
+    u = np.where(south, sign[:, 0] * (1.0 - sign[:, 1] * y), x)
+    v = np.where(south, sign[:, 1] * (1.0 - sign[:, 0] * x), y)
+    return np.column_stack((0.5 + 0.5 * u, 0.5 + 0.5 * v))
