@@ -14,8 +14,7 @@ __all__ = ["output_files"]
 def output_files(sources: list[Path], target: Path, suffix: str | None) -> list[Path]:
     """A file for each of the sources.
 
-    A folder gets files of the inputs' names, with `suffix`, or else their own, or .obj where that would lose texture
-    coordinates.
+    A folder gets files of the inputs' names, with `suffix`, or else .ply for .ply and .obj for all others.
 
     Raises
     ------
@@ -34,7 +33,7 @@ def output_files(sources: list[Path], target: Path, suffix: str | None) -> list[
         return [check_target(target)]
     files: dict[Path, Path] = {}
     for source in sources:
-        own = source.suffix.lower() if source.suffix.lower() in UV_FORMATS else ".obj"
+        own = ".ply" if source.suffix.lower() == ".ply" else ".obj"
         file = check_target(target / (source.stem + (suffix or own)))
         if file in files:
             raise OptionError(f"{files[file]} and {source} would both become {file}; map them one by one.")
