@@ -76,9 +76,9 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
         if not result.unwrapped:
             self.report({"ERROR"}, result.message)
             return {"CANCELLED"}
-        self.report({"INFO"} if result.complete else {"WARNING"}, result.message)
         for remark in result.remarks:
             self.report({"INFO"}, remark)
+        self.report({"INFO"} if result.complete else {"WARNING"}, result.message)  # the last one stays in sight
         return {"FINISHED"}
 
     def draw(self, context):

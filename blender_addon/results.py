@@ -107,7 +107,7 @@ class UnwrapResult:
     @property
     def remarks(self) -> list[str]:
         """What was mended, left unused or lost, object by object."""
-        told = [f"{ob.name}: {note}" for ob in self.objects for note in ob.notes]
+        told = [f"{ob.name}: {note}" for ob in self.objects for note in dict.fromkeys(ob.notes)]
         told += [f"{ob.name}: {ob.flipped} faces are inverted" for ob in self.objects if ob.flipped]
         told += [
             f"{ob.name}: {ob.lost_to_float32} triangles are too small for the single precision of UVs; "

@@ -44,7 +44,7 @@ def gather(context: bpy.types.Context, objects: Iterable[bpy.types.Object], opti
 
 def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) -> Task:
     layer = uv_layer_name(ob.data, options.uv_layer)
-    refusal = _refusal(ob.data, layer)
+    refusal = _refusal(ob, ob.data, layer)
     if refusal:
         return Task(ob, layer, None, refusal)
     with settled_mesh(ob) as mesh:
@@ -63,8 +63,10 @@ def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) ->
     return Task(ob, layer, Surface(arrays, chosen, active), subdivision=subdivision)
 
 
-def _refusal(mesh: bpy.types.Mesh, layer: str) -> str:
+def _refusal(ob: bpy.types.Object, mesh: bpy.types.Mesh, layer: str) -> str:
     """Why a mesh can not be unwrapped, before anything of it is read."""
+    if mesh.is_editmode and ob.mode != "EDIT":
+        return "the mesh is in Edit Mode through another object; leave Edit Mode there"
     if mesh.library is not None:
         return "the mesh is linked from another file; make it local first"
     if not len(mesh.polygons) and not mesh.is_editmode:
