@@ -15,9 +15,11 @@ if TYPE_CHECKING:
     from .exceptions import ConformalFilterException
     from .registration import register, unregister
     from .saving import save_textured_mesh
+    from .sphere import compute_coord_conformal_sphere
 
 __all__ = [
     "ConformalFilterException",
+    "compute_coord_conformal_sphere",
     "compute_texcoord_parametrization_conformal_disk",
     "register",
     "save_textured_mesh",
@@ -27,6 +29,7 @@ __all__ = [
 
 _HOME = {
     "ConformalFilterException": "exceptions",
+    "compute_coord_conformal_sphere": "sphere",
     "compute_texcoord_parametrization_conformal_disk": "disk",
     "register": "registration",
     "save_textured_mesh": "saving",

@@ -9,10 +9,11 @@ from typing import Any
 from .disk import compute_texcoord_parametrization_conformal_disk
 from .exceptions import ConformalFilterException
 from .library import pymeshlab
+from .sphere import compute_coord_conformal_sphere
 
 __all__ = ["register", "unregister"]
 
-FILTERS = (compute_texcoord_parametrization_conformal_disk,)
+FILTERS = (compute_texcoord_parametrization_conformal_disk, compute_coord_conformal_sphere)
 
 
 def register() -> None:
