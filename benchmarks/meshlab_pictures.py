@@ -64,12 +64,8 @@ def painted(face: np.ndarray, colour: np.ndarray) -> np.ndarray:
     return picture.reshape(SIZE // 2, 2, SIZE // 2, 2, 3).mean(axis=(1, 3))
 
 
-def save(figure: Figure, path: Path, colours: int) -> None:
-    """As a PNG of so many colours, which is small."""
-    figure.savefig(path, dpi=110)
-    with Image.open(path) as image:
-        small = image.convert("RGB").quantize(colours, method=Image.Quantize.MAXCOVERAGE)
-    small.save(path, optimize=True)
+def save(figure: Figure, path: Path) -> None:
+    figure.savefig(path, dpi=90, pil_kwargs={"optimize": True})
 
 
 def panels(left: np.ndarray, right: np.ndarray) -> tuple[Figure, list]:
@@ -99,10 +95,11 @@ def main() -> None:
 
     norm = matplotlib.colors.Normalize(0.0, 5.0)
     colour = matplotlib.colormaps["viridis"](norm(error))[:, :3]
-    figure, axes = panels(painted(face, (colour * (0.4 + 0.6 * light)[:, None])[face]), painted(flat_face, colour[flat_face]))
+    lit = colour * (0.4 + 0.6 * light)[:, None]
+    figure, axes = panels(painted(face, lit[face]), painted(flat_face, colour[flat_face]))
     scale = matplotlib.cm.ScalarMappable(norm, "viridis")
     figure.colorbar(scale, ax=axes, shrink=0.8, extend="max", label="angle error of a face, degrees")
-    save(figure, options.folder / "pymeshlab_distortion.png", 256)
+    save(figure, options.folder / "pymeshlab_distortion.png")
 
     with tempfile.TemporaryDirectory() as folder:
         meshlab_filter.write_checker(Path(folder) / "checker.png")
@@ -116,7 +113,7 @@ def main() -> None:
 
     lit = textured(face, place) * light[face][..., None]
     figure, _ = panels(painted(face, lit), painted(flat_face, textured(flat_face, flat_place)))
-    save(figure, options.folder / "pymeshlab_checker.png", 128)
+    save(figure, options.folder / "pymeshlab_checker.png")
 
 
 if __name__ == "__main__":

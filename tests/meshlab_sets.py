@@ -47,6 +47,11 @@ def mesh_set(V: NDArray, F: NDArray, label: str = "patient", **more: NDArray) ->
     return ms
 
 
+def wedges(ms: Any) -> NDArray:
+    """Wedge texture coordinates of the current mesh, (m, 3, 2)."""
+    return ms.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2)
+
+
 def contents(ms: Any) -> dict[str, Any]:
     """The MeshSet's current mesh, its number of meshes, and everything of each of them."""
     told: dict[str, Any] = {"current": ms.current_mesh_id(), "meshes": ms.mesh_number()}

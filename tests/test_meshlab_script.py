@@ -87,6 +87,12 @@ def test_off_comes_with_a_warning(surface: Path, tmp_path: Path):
     assert "does not read" in done.stderr and "STOFF" in (tmp_path / "out.off").read_text()[:20]
 
 
+def test_dae_without_texture_is_refused_before_the_map(tmp_path: Path):
+    """The mesh could not be mapped either; that is not what is told."""
+    closed = saved(tmp_path / "closed.ply", *tetrahedron())
+    assert "FileFormatError" in run(closed, tmp_path / "out.dae", code=1).stderr
+
+
 def test_many_inputs_one_line_each_failures_at_the_end(surface: Path, tmp_path: Path):
     inputs = tmp_path / "in"
     inputs.mkdir()
@@ -161,6 +167,9 @@ def test_texture_file_is_linked_and_a_bad_one_refused(surface: Path, tmp_path: P
     before = (tmp_path / "red.png").read_bytes()
     run(surface, tmp_path / "mesh.obj", "--texture", tmp_path / "red.png", "-q")
     assert (tmp_path / "red.png").read_bytes() == before
+    (tmp_path / "out" / "red.png").write_bytes(b"an older one")
+    run(surface, tmp_path / "out" / "mesh.obj", "--texture", tmp_path / "red.png", "-q")
+    assert (tmp_path / "out" / "red.png").read_bytes() != b"an older one"
     done = run(surface, tmp_path / "other.obj", "--texture", tmp_path / "absent.png", code=1)
     assert "absent.png" in done.stderr and not (tmp_path / "other.obj").exists()
 
