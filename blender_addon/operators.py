@@ -1,5 +1,7 @@
 """The operators: thin, over unwrap_objects and the mesh files' reading and writing."""
 
+from dataclasses import replace
+
 import bpy
 
 from . import last_result
@@ -27,6 +29,7 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     _worker = None
+    _seconds = 0.0  # that a thread has spent already
 
     @classmethod
     def poll(cls, context):
@@ -59,7 +62,7 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
             if self._worker.running:
                 self._worker.show(context)
             else:
-                self._worker.finish(context)
+                self._seconds = self._worker.finish(context)
                 return self.execute(context)
         return {"RUNNING_MODAL"}
 
@@ -72,7 +75,8 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
         from .unwrap_objects import unwrap_objects
 
         result = unwrap_objects(context, target_objects(context), Options.of(self))
-        last_result.keep(result)
+        last_result.keep(replace(result, seconds=result.seconds + self._seconds))
+        self._seconds = 0.0
         if not result.unwrapped:
             self.report({"ERROR"}, result.message)
             return {"CANCELLED"}

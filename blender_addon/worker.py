@@ -6,6 +6,7 @@ interpreter's lock while it works, which would freeze the window like no thread 
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable
 from threading import Event, Thread
 
@@ -42,6 +43,7 @@ class Worker:
         self._error: Exception | None = None
         self._thread = Thread(target=self._run, name="conformal_uv", daemon=True)
         self._timer: bpy.types.Timer | None = None
+        self._begun = 0.0
 
     @property
     def faces(self) -> int:
@@ -58,6 +60,7 @@ class Worker:
         manager = context.window_manager
         manager.progress_begin(0, 100)
         self._timer = manager.event_timer_add(SECONDS, window=context.window)
+        self._begun = time.perf_counter()
         self._thread.start()
         self.show(context)
 
@@ -67,12 +70,13 @@ class Worker:
         context.window_manager.progress_update(percent)
         context.workspace.status_text_set(f"Conformal Disk Unwrap: {self._stage} {percent} %      Esc: Cancel")
 
-    def finish(self, context: bpy.types.Context) -> None:
-        """Hand the work over and put the window back; raises what went wrong in the thread."""
+    def finish(self, context: bpy.types.Context) -> float:
+        """Hand the work over and put the window back; the seconds spent. Raises what went wrong in the thread."""
         self._put_back(context)
         if self._error is not None:
             raise self._error
         KEPT.adopt(self._kept)
+        return time.perf_counter() - self._begun
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Let the thread stop at its next report; it is not waited for and what it shares is forgotten."""
