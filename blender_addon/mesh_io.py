@@ -135,6 +135,18 @@ def write_uv(mesh: bpy.types.Mesh, uv_layer: str, uv: NDArray[np.float64], writt
     mesh.update()
 
 
+def write_shape_key(ob: bpy.types.Object, name: str, positions: NDArray[np.float64]) -> None:
+    """Set the positions (n, 3) of a shape key, in Object Mode, and slide to it; made when missing."""
+    if ob.data.shape_keys is None:
+        ob.shape_key_add(name="Basis", from_mix=False)
+    key = ob.data.shape_keys.key_blocks.get(name)
+    if key is None:
+        key = ob.shape_key_add(name=name, from_mix=False)
+    key.data.foreach_set("co", np.ascontiguousarray(positions, dtype=np.float32).reshape(-1))
+    key.value = 1.0
+    ob.data.update()
+
+
 def write_selection(mesh: bpy.types.Mesh, faces: NDArray[np.bool_]) -> None:
     """Select these faces with their edges and vertices, and nothing else, in Object Mode."""
     corner = np.repeat(faces, np.diff(_starts(mesh, len(mesh.polygons), len(mesh.loops))))

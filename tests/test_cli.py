@@ -308,8 +308,9 @@ def test_sphere_layout_has_a_proper_seam(tmp_path: Path, layout: str):
     uv = np.load(tmp_path / "out.npz")["corner_uv"].reshape(-1, 3, 2)
     a, b, c = uv.transpose(1, 0, 2)
     area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-    assert area.min() > 0
-    assert area.max() < 0.1  # a torn triangle would span half the square
+    around_poles = 2 if layout == "equirectangular" else 0  # a face with a pole inside has all longitudes
+    assert (area <= 0).sum() <= around_poles
+    assert np.abs(area).max() < 0.1  # a torn triangle would span half the square
     assert 0.8 < area.sum() < 1.05
 
 

@@ -16,7 +16,8 @@ def equirectangular(xyz: Real, mesh: PolygonMesh) -> Real:
     """Longitude and latitude, (k, 2): u in turns from -x eastwards, v from the south pole.
 
     A polygon across the seam lies wholly on its east side, with u beyond 1, where a repeating texture goes on; a
-    corner at a pole takes the mean longitude of its polygon's others.
+    corner at a pole takes the mean longitude of its polygon's others. A polygon with a pole in its inside has all
+    longitudes and no good place; `octahedral` has none such.
     """
     x, y, z = xyz[mesh.corners].T
     u = 0.5 + np.arctan2(y, x) / (2.0 * np.pi)

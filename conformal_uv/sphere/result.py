@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..disk.newton import NewtonStep
 from ..mesh.surface import Surface
+from ..operators.areas import lumped_areas
 from ..operators.distortion import Distortion, distortion_of
 
 __all__ = ["SphereMap"]
@@ -61,6 +62,15 @@ class SphereMap:
         A surface whose boundary was capped is measured with its caps.
         """
         return distortion_of(self.surface.geometry, self.surface.corners, self.xyz, self.surface.unit)
+
+    @property
+    def around_surface(self) -> NDArray[np.float64]:
+        """The map on the sphere that has the surface's area and its centre of mass, (n, 3) in the units of V."""
+        surface = self.surface
+        area = lumped_areas(surface.geometry, surface.corners, surface.n)
+        total = float(area.sum())
+        middle = area @ surface.V / total if total > 0.0 else surface.V.mean(axis=0)
+        return (middle + np.sqrt(total / (4.0 * np.pi)) * self.xyz) * surface.unit
 
     @property
     def gradient_norm(self) -> float | None:

@@ -1,0 +1,99 @@
+"""The operator Conformal Sphere Map: a shape key that turns a closed mesh into its conformal sphere."""
+
+import bpy
+
+from .libraries import missing_library
+from .mesh_io import has_room, read_mesh, uv_layer_name, write_shape_key, write_uv
+
+SHAPE_KEY = "Conformal Sphere"
+
+
+class OBJECT_OT_conformal_sphere(bpy.types.Operator):
+    """Add a shape key that turns each selected closed mesh into a sphere, keeping angles"""
+
+    bl_idname = "object.conformal_sphere"
+    bl_label = "Conformal Sphere Map"
+    bl_options = {"REGISTER", "UNDO"}
+
+    method: bpy.props.EnumProperty(
+        name="Method",
+        items=(
+            ("NEWTON", "Newton", "The minimiser of the conformal energy"),
+            ("LINEAR", "Linear", "One factorization, slightly less exact"),
+        ),
+        default="NEWTON",
+    )
+    uv: bpy.props.EnumProperty(
+        name="UVs",
+        items=(
+            ("NONE", "None", "Leave the UVs as they are"),
+            ("EQUIRECTANGULAR", "Equirectangular", "Longitude and latitude; faces across the seam go on beyond 1"),
+            ("OCTAHEDRAL", "Octahedral", "The octahedron unfolded to a square"),
+        ),
+        default="NONE",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        why = "Go to Object Mode" if context.mode != "OBJECT" else missing_library()
+        if not why and not any(ob.type == "MESH" for ob in context.selected_editable_objects):
+            why = "Select a mesh object"
+        if why:
+            cls.poll_message_set(why)
+        return not why
+
+    def execute(self, context):
+        from conformal_uv import ConformalUVError
+
+        objects = {ob.data: ob for ob in context.selected_editable_objects if ob.type == "MESH"}
+        failures = []
+        for ob in objects.values():
+            try:
+                self._map(ob)
+            except ConformalUVError as error:
+                failures.append(f"{ob.name}: {error}")
+        done = len(objects) - len(failures)
+        message = "; ".join([f"Mapped {done} of {len(objects)} meshes to spheres", *failures])
+        if not done:
+            self.report({"ERROR"}, message)
+            return {"CANCELLED"}
+        self.report({"WARNING"} if failures else {"INFO"}, message)
+        return {"FINISHED"}
+
+    def _map(self, ob):
+        """Solve, then write; a mesh that can not be mapped is left as it was."""
+        import numpy as np
+
+        from conformal_uv import OptionError, sphere_map
+        from conformal_uv.mesh import PolygonMesh
+        from conformal_uv.mesh.triangulate import triangulate
+        from conformal_uv.sphere.layout import equirectangular, octahedral
+
+        layer = uv_layer_name(ob.data, "")
+        if self.uv != "NONE" and not has_room(ob.data, layer):
+            raise OptionError("it has eight UV maps already; remove one.")
+        arrays = read_mesh(ob.data, layer)
+        V = arrays.V.astype(np.float64)
+        mesh = PolygonMesh(V, arrays.corners.astype(np.int64), arrays.starts.astype(np.int64))
+        used, F = np.unique(triangulate(mesh)[0], return_inverse=True)
+        result = sphere_map(V[used], F.reshape(-1, 3), method=self.method.lower(), rotation="surface")
+        positions, xyz = V.copy(), np.zeros_like(V)
+        positions[used], xyz[used] = result.around_surface, result.xyz
+        write_shape_key(ob, SHAPE_KEY, positions)
+        if self.uv != "NONE":
+            layout = {"EQUIRECTANGULAR": equirectangular, "OCTAHEDRAL": octahedral}[self.uv]
+            write_uv(ob.data, layer, layout(xyz, mesh), np.ones(len(mesh.corners), dtype=bool))
+
+
+def draw(self, context):
+    self.layout.operator(OBJECT_OT_conformal_sphere.bl_idname)
+
+
+def register():
+    bpy.utils.register_class(OBJECT_OT_conformal_sphere)
+    bpy.types.VIEW3D_MT_object.append(draw)
+
+
+def unregister():
+    bpy.types.VIEW3D_MT_object.remove(draw)
+    bpy.utils.unregister_class(OBJECT_OT_conformal_sphere)
