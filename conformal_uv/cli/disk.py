@@ -118,6 +118,9 @@ def _corner_uv(result: Unwrapped, sizes: np.ndarray) -> np.ndarray:
 
 def _reason(result: Unwrapped) -> ConformalUVError:
     """What to say when no chart could be mapped."""
-    if len(result.charts) == 1 and result.charts[0].error is not None:
-        return result.charts[0].error
-    return ConformalUVError(result.summary)
+    errors = [chart.error for chart in result.charts if chart.error is not None]
+    if len(errors) == 1:
+        return errors[0]
+    kinds = {type(error) for error in errors}
+    kind = kinds.pop() if len(kinds) == 1 else ConformalUVError
+    return kind(result.summary, [index for error in errors for index in error.indices])
