@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
 from .edit_mode import select_only
-from .mesh_io import DEFAULT_LAYER, new_mesh, read_uv
+from .mesh_io import DEFAULT_LAYER, MeshArrays, new_mesh, read_uv
 from .properties import Options
 from .tasks import Task
 
@@ -23,16 +24,31 @@ def pack_with_blender(context: bpy.types.Context, tasks: list[Task], options: Op
     In Object Mode. Rotation and shape of the disks are kept.
     """
     cells = int(np.ceil(np.sqrt(sum(len(task.solved.charts) for task in tasks))))
+    unit = max(_extent(task) for task in tasks)
     first, made = 0, []
     for task in tasks:
         uv = _side_by_side(task, first, cells)
         first += len(task.solved.charts)
-        made.append(new_mesh(task.surface.arrays, task.solved.mapped, uv))
+        made.append(new_mesh(_in_units(task, unit), task.solved.mapped, uv))
     try:
         _pack(context, made, options.margin)
         return [_read_back(task, mesh) for task, mesh in zip(tasks, made, strict=True)]
     finally:
         bpy.data.batch_remove(made)
+
+
+def _extent(task: Task) -> float:
+    """The largest coordinate of what was mapped."""
+    used = task.surface.arrays.corners[np.repeat(task.solved.mapped, np.diff(task.surface.arrays.starts))]
+    return float(np.abs(task.surface.arrays.V[used]).max())
+
+
+def _in_units(task: Task, unit: float) -> MeshArrays:
+    """The mesh with the largest coordinate of all brought to 1: Blender's packer crashes where areas overflow."""
+    arrays = task.surface.arrays
+    V = arrays.V.astype(np.float64)
+    V[~np.isfinite(V)] = 0.0
+    return replace(arrays, V=(V / (unit or 1.0)).astype(np.float32))
 
 
 def _side_by_side(task: Task, first: int, cells: int) -> NDArray[np.float32]:

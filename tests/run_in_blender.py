@@ -1,6 +1,9 @@
-"""The tests of tests/blender inside a real Blender, whose Python must have pytest, numpy and scipy.
+"""The tests of tests/blender inside a real Blender, whose Python must have pytest.
 
-    blender --background --factory-startup --python tests/run_in_blender.py [-- PYTEST ARGUMENTS]
+    blender --background --python tests/run_in_blender.py [-- PYTEST ARGUMENTS]
+
+They test the repository's add-on; with CONFORMAL_UV_BLENDER_MODULE=bl_ext.user_default.conformal_uv the installed
+extension, which brings scipy and rectangle-packer itself.
 """
 
 import os

@@ -12,22 +12,27 @@ import pytest
 INSIDE = "CONFORMAL_UV_INSIDE_BLENDER"
 REPOSITORY = Path(__file__).resolve().parents[2]
 
+MODULE = os.environ.get("CONFORMAL_UV_BLENDER_MODULE", "blender_addon")
+
 if not os.environ.get(INSIDE):
     collect_ignore_glob = ["*.py"]
+elif MODULE == "blender_addon":
+    sys.path.insert(0, str(REPOSITORY))
+else:  # brings conformal_uv, which tests import
+    importlib.import_module("bpy")
+    importlib.import_module("addon_utils").enable(MODULE)
 
 
 @pytest.fixture(scope="session")
 def addon():
-    """The extension, registered: the repository's, or the one that CONFORMAL_UV_BLENDER_MODULE names."""
-    name = os.environ.get("CONFORMAL_UV_BLENDER_MODULE", "blender_addon")
-    if name == "blender_addon":
-        sys.path.insert(0, str(REPOSITORY))
-        module = importlib.import_module(name)
-        module.register()
+    """The extension, registered: the repository's, or the installed one that CONFORMAL_UV_BLENDER_MODULE names."""
+    module = importlib.import_module(MODULE)
+    if MODULE != "blender_addon":
         yield module
-        module.unregister()
-    else:
-        yield importlib.import_module(name)
+        return
+    module.register()
+    yield module
+    module.unregister()
 
 
 @pytest.fixture(autouse=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import bpy
 import numpy as np
 import pytest
@@ -148,6 +150,31 @@ def test_every_bad_mesh_is_named(addon):
     for part in ("Nowhere, faces", "NaN", "Fin, faces 0, 1, 2: 1 edges have three", "Wire: the mesh has no faces"):
         assert part in result.message
     assert "pass " not in result.message and '="' not in result.message
+
+
+@pytest.mark.parametrize("size", [1e-30, 1e30])
+def test_packing_meshes_of_extreme_sizes(size):
+    one, other = scenes.grid(name="One"), scenes.grid(name="Other")
+    for ob in (one, other):
+        V = np.array([tuple(vertex.co) for vertex in ob.data.vertices]) * size
+        ob.data.vertices.foreach_set("co", V.astype(np.float32).reshape(-1))
+    scenes.select(one, other)
+    assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}  # Blender's packer crashes on infinite areas
+    for ob in (one, other):
+        uv = scenes.uvs(ob)
+        assert uv.min() >= -1e-6 and uv.max() <= 1.0 + 1e-6 and np.ptp(uv, axis=0).min() > 0.3
+
+
+def test_without_rectangle_packer(monkeypatch):
+    monkeypatch.setitem(sys.modules, "rpack", None)
+    ob = scenes.primitive("cube")
+    for edge in ob.data.edges:
+        edge.use_seam = True
+    before = scenes.shadowed(scenes.uvs(ob))
+    with pytest.raises(RuntimeError, match="Cube: .*rectangle-packer.*set Place to Keep Size and Pack"):
+        bpy.ops.uv.conformal_unwrap()
+    assert scenes.shadowed(scenes.uvs(ob)) == before
+    assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}
 
 
 def test_selection_and_active_object_after_edit_mode():
