@@ -85,15 +85,9 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
             write_uv(ob.data, layer, layout(xyz, mesh), np.ones(len(mesh.corners), dtype=bool))
 
 
-def draw(self, context):
-    self.layout.operator(OBJECT_OT_conformal_sphere.bl_idname)
-
-
 def register():
     bpy.utils.register_class(OBJECT_OT_conformal_sphere)
-    bpy.types.VIEW3D_MT_object.append(draw)
 
 
 def unregister():
-    bpy.types.VIEW3D_MT_object.remove(draw)
     bpy.utils.unregister_class(OBJECT_OT_conformal_sphere)
