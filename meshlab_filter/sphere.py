@@ -28,6 +28,7 @@ def compute_coord_conformal_sphere(
     normalization: str = "area",
     rotation: str = "principal",
     landmarks: Iterable[int] | None = None,
+    boundary: str = "refuse",
     repair: str = "auto",
     laplacian: str = "auto",
     backend: str = "auto",
@@ -43,7 +44,7 @@ def compute_coord_conformal_sphere(
     ----------
     ms : pymeshlab.MeshSet
     method : Enum
-        'newton' (default) or 'linear' (one factorization, slightly less exact).
+        'newton' (default), 'linear' (one factorization, slightly less exact), 'augmented-lagrangian'.
     normalization : Enum
         What comes to the middle of the ball: the centre of mass of the 'area' (default), of the vertices ('centre'),
         or 'none'.
@@ -51,6 +52,8 @@ def compute_coord_conformal_sphere(
         'principal' (axes of the mass), 'surface' (nearest to the surface's own directions), 'none'.
     landmarks : three Integers
         Vertices sent to (0, 0, -1), (1, 0, 0) and (0, 0, 1), in the place of normalization and rotation.
+    boundary : Enum
+        Boundary loops: 'refuse' or 'cap' (for the solution only).
     repair : Enum
         Inverted triangles: 'auto' unfolds them, 'never' leaves them.
     laplacian : Enum
@@ -88,6 +91,7 @@ def compute_coord_conformal_sphere(
             normalization=normalization,
             rotation=rotation,
             landmarks=None if landmarks is None else list(landmarks),
+            boundary=boundary,
             repair=repair,
             laplacian=laplacian,
             backend=backend,
@@ -101,6 +105,7 @@ def compute_coord_conformal_sphere(
         if quality != "none":
             d = result.distortion
             values = d.angle_error.mean(axis=1) if quality == "angle" else d.quasi_conformal
+            values = values[: len(source.F)]  # caps come after
             write_face_scalar(ms, source.mesh, values, np.isfinite(values))
     return numbers
 

@@ -155,6 +155,31 @@ def test_derivatives_of_the_energy() -> None:
     assert np.vdot(energy.hessian_product(one), two) == pytest.approx(other, rel=1e-12)
 
 
+def test_newton_and_the_reports_way_find_one_minimiser() -> None:
+    """Two independent algorithms; they agree up to a rotation as far as the slower one's tolerance of 1e-8 goes."""
+    V, F = icosphere(2)
+    V = V * [1.0, 1.2, 1.5] * (1 + 0.1 * np.sin(2 * V[:, :1] + V[:, 1:2]))
+    newton = cuv.sphere_map(V, F, rotation="none", tolerance=1e-11)
+    report = cuv.sphere_map(V, F, method="augmented-lagrangian", rotation="none")
+    assert report.converged and report.history[-1].constraint_norm < 1e-8
+    assert report.conformal_energy == pytest.approx(newton.conformal_energy, abs=1e-9)
+    left, _, right = np.linalg.svd(report.xyz.T @ newton.xyz)
+    np.testing.assert_allclose(report.xyz @ left @ right, newton.xyz, rtol=0, atol=1e-6)
+
+
+def test_capped_boundary_is_left_out_of_the_result() -> None:
+    """A sphere with one face taken out, closed again by the cap, is nearly the sphere."""
+    V, F = icosphere(3)
+    m = cuv.sphere_map(V, F[1:], boundary="cap", rotation="surface")
+    assert m.xyz.shape == V.shape and len(m.flipped) == 0
+    assert np.abs(np.linalg.norm(m.xyz, axis=1) - 1).max() <= 1e-12
+    whole = cuv.sphere_map(V, F, rotation="surface")
+    assert np.abs(m.xyz - whole.xyz).max() < 0.05  # an edge is 0.14
+    assert m.distortion.angle_error.shape == (len(F) - 1 + 3, 3)
+    with pytest.raises(cuv.TopologyError, match="boundary"):
+        cuv.sphere_map(V, F[1:])
+
+
 @pytest.mark.parametrize("method", ["linear", "newton"])
 def test_rotated_scaled_and_relabelled_copies_have_the_same_map(method: str) -> None:
     V, F = bumpy()

@@ -18,6 +18,7 @@ __all__ = [
     "Place",
     "Repair",
     "Rotation",
+    "SphereBoundary",
     "SphereLayout",
     "SphereMethod",
 ]
@@ -108,6 +109,14 @@ class SphereMethod(StrEnum):
 
     NEWTON = "newton"
     LINEAR = "linear"
+    AUGMENTED_LAGRANGIAN = "augmented-lagrangian"
+
+
+class SphereBoundary(StrEnum):
+    """--boundary"""
+
+    REFUSE = "refuse"
+    CAP = "cap"
 
 
 class Normalization(StrEnum):

@@ -38,6 +38,9 @@ def sphere(
         str | None,
         typer.Option(metavar="A,B,C", help="Vertices (from 0) sent to the south pole, (1, 0, 0) and the north pole."),
     ] = None,
+    boundary: Annotated[
+        choices.SphereBoundary, typer.Option(help="Boundary loops; a cap is virtual.")
+    ] = choices.SphereBoundary.REFUSE,
     laplacian: Annotated[choices.Laplacian, typer.Option(help="Weights.")] = choices.Laplacian.AUTO,
     repair: Annotated[choices.Repair, typer.Option(help="Inverted triangles.")] = choices.Repair.AUTO,
     backend: Annotated[choices.Backend, typer.Option(help="Factorization library.")] = choices.Backend.AUTO,
@@ -67,6 +70,7 @@ def sphere(
             normalization=normalization.value,
             rotation=rotation.value,
             landmarks=marks,
+            boundary=boundary.value,
             laplacian=laplacian.value,
             repair=repair.value,
             backend=backend.value,

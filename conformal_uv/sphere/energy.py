@@ -11,11 +11,46 @@ from numpy.typing import NDArray
 from ..operators.edge_laplacian import EdgeLaplacian
 from .centring import unit
 
-__all__ = ["SphereEnergy"]
+__all__ = ["SphereEnergy", "area_gradient", "area_hessian_product", "laplace", "triangle_normals"]
 
 Real = NDArray[np.float64]
 
 TINY = np.finfo(np.float64).tiny
+
+
+def triangle_normals(x: Real, corners: NDArray[np.int32]) -> tuple[Real, Real, Real, Real]:
+    """Doubled areas (m,), unit normals (m, 3), and the edges (m, 3) from corner 0 to corners 1 and 2."""
+    a, b, c = (x[corner] for corner in corners)
+    ab, ac = b - a, c - a
+    normal = np.cross(ab, ac)
+    double_area = np.linalg.norm(normal, axis=1)
+    return double_area, normal / np.maximum(double_area, TINY)[:, None], ab, ac
+
+
+def laplace(laplacian: EdgeLaplacian, x: Real) -> Real:
+    """L x for rows (n, 3)."""
+    flow = laplacian.weights[:, None] * (x[laplacian.lo] - x[laplacian.hi])
+    return _gathered((laplacian.lo, laplacian.hi), (flow, -flow), len(x))
+
+
+def area_gradient(corners: NDArray[np.int32], normal: Real, ab: Real, ac: Real, n: int) -> Real:
+    """Half the normal times the opposite edge, gathered at the vertices (n, 3); bilinear in normal and edges."""
+    at_b, at_c = 0.5 * np.cross(ac, normal), 0.5 * np.cross(normal, ab)
+    return _gathered(tuple(corners), (-at_b - at_c, at_b, at_c), n)
+
+
+def area_hessian_product(
+    corners: NDArray[np.int32], signed_area: Real, normal: Real, ab: Real, ac: Real, direction: Real
+) -> Real:
+    """Hessian of the area times a direction (n, 3); `signed_area` is the doubled area with the sign of the normal."""
+    a, b, c = (direction[corner] for corner in corners)
+    d_ab, d_ac = b - a, c - a
+    change = np.cross(d_ab, ac) + np.cross(ab, d_ac)
+    along = np.einsum("ij,ij->i", change, normal)
+    scale = np.sign(signed_area) / np.maximum(np.abs(signed_area), TINY)
+    turned = (change - along[:, None] * normal) * scale[:, None]
+    n = len(direction)
+    return area_gradient(corners, turned, ab, ac, n) + area_gradient(corners, normal, d_ab, d_ac, n)
 
 
 class SphereEnergy:
@@ -31,43 +66,25 @@ class SphereEnergy:
 
     def __init__(self, laplacian: EdgeLaplacian, corners: NDArray[np.int32], x: Real) -> None:
         self.laplacian, self.corners, self.x = laplacian, corners, unit(x)
-        a, b, c = (self.x[corner] for corner in corners)
-        self._ab, self._ac = b - a, c - a
-        normal = np.cross(self._ab, self._ac)
-        self._double_area = np.linalg.norm(normal, axis=1)
-        self._sign = np.where(np.einsum("ij,ij->i", a, normal) < 0.0, -1.0, 1.0)
-        self._normal = normal * (self._sign / np.maximum(self._double_area, TINY))[:, None]
+        self._double_area, normal, self._ab, self._ac = triangle_normals(self.x, corners)
+        self._sign = np.where(np.einsum("ij,ij->i", self.x[corners[0]], normal) < 0.0, -1.0, 1.0)
+        self._normal = normal * self._sign[:, None]
         step = self.x[laplacian.lo] - self.x[laplacian.hi]
         dirichlet = 0.5 * float(laplacian.weights @ np.einsum("ij,ij->i", step, step))
         self.value = dirichlet - 0.5 * float(self._sign @ self._double_area)
-        free = self._laplace(self.x) - self._area_gradient(self._normal, self._ab, self._ac)
+        free = laplace(laplacian, self.x) - area_gradient(corners, self._normal, self._ab, self._ac, len(x))
         self._radial = np.einsum("ij,ij->i", free, self.x)
         self.gradient = free - self._radial[:, None] * self.x
 
     def hessian_product(self, direction: Real) -> Real:
         """Riemannian Hessian times a tangent direction (n, 3)."""
-        a, b, c = (direction[corner] for corner in self.corners)
-        ab, ac = b - a, c - a
-        change = np.cross(ab, self._ac) + np.cross(self._ab, ac)
-        along = np.einsum("ij,ij->i", change, self._normal)
-        scale = (self._sign / np.maximum(self._double_area, TINY))[:, None]
-        turned = (change - along[:, None] * self._normal) * scale
-        area = self._area_gradient(turned, self._ab, self._ac) + self._area_gradient(self._normal, ab, ac)
-        return self.tangent(self._laplace(direction) - area) - self._radial[:, None] * direction
+        signed = self._sign * self._double_area
+        area = area_hessian_product(self.corners, signed, self._normal, self._ab, self._ac, direction)
+        return self.tangent(laplace(self.laplacian, direction) - area) - self._radial[:, None] * direction
 
     def tangent(self, vectors: Real) -> Real:
         """The part of vectors (n, 3) tangent to the sphere."""
         return vectors - np.einsum("ij,ij->i", vectors, self.x)[:, None] * self.x
-
-    def _laplace(self, x: Real) -> Real:
-        lo, hi, n = self.laplacian.lo, self.laplacian.hi, len(self.x)
-        flow = self.laplacian.weights[:, None] * (x[lo] - x[hi])
-        return _gathered((lo, hi), (flow, -flow), n)
-
-    def _area_gradient(self, normal: Real, ab: Real, ac: Real) -> Real:
-        """Half the normal times the opposite edge, gathered at the vertices; bilinear in normal and edges."""
-        at_b, at_c = 0.5 * np.cross(ac, normal), 0.5 * np.cross(normal, ab)
-        return _gathered(tuple(self.corners), (-at_b - at_c, at_b, at_c), len(self.x))
 
 
 def _gathered(places: tuple[NDArray[np.int32], ...], values: tuple[Real, ...], n: int) -> Real:

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..disk.augmented_lagrangian import AugmentedLagrangianStep
 from ..disk.newton import NewtonStep
 from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
@@ -34,8 +35,8 @@ class SphereMap:
         Faces that are not anticlockwise seen from outside the sphere.
     converged : bool
         Whether the method reached its tolerance; always true of "linear", which does not iterate.
-    history : tuple of NewtonStep
-        A row for each iteration; empty for "linear".
+    history : tuple
+        A row for each iteration, NewtonStep or AugmentedLagrangianStep; empty for "linear".
     repaired : int
         Number of inverted faces that were unfolded.
     method, normalization, laplacian : str
@@ -48,20 +49,21 @@ class SphereMap:
     signed_volume: float
     flipped: NDArray[np.int64]
     converged: bool
-    history: tuple[NewtonStep, ...]
+    history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
     repaired: int
     method: str
     normalization: str
     laplacian: str
     surface: Surface = field(repr=False)
+    full: NDArray[np.float64] = field(repr=False)
 
     @cached_property
     def distortion(self) -> Distortion:
         """Angle error, quasi-conformal ratio and area scale of every face (area in units of V squared).
 
-        A surface whose boundary was capped is measured with its caps.
+        Faces of virtual caps come after the caller's own.
         """
-        return distortion_of(self.surface.geometry, self.surface.corners, self.xyz, self.surface.unit)
+        return distortion_of(self.surface.geometry, self.surface.corners, self.full, self.surface.unit)
 
     @property
     def around_surface(self) -> NDArray[np.float64]:
@@ -75,4 +77,5 @@ class SphereMap:
     @property
     def gradient_norm(self) -> float | None:
         """Norm of the projected gradient at the end of Newton's method; None for "linear"."""
-        return self.history[-1].gradient_norm if self.history else None
+        last = self.history[-1] if self.history else None
+        return last.gradient_norm if isinstance(last, NewtonStep) else None

@@ -9,6 +9,7 @@ from operator import index
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..disk.augmented_lagrangian import AugmentedLagrangianStep
 from ..disk.newton import NewtonStep
 from ..errors import DisconnectedError, OptionError, TopologyError
 from ..mesh.geometry import triangle_geometry
@@ -18,6 +19,8 @@ from ..operators.cholesky import choose_backend
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, EdgeLaplacian, edge_laplacian
 from ..progress import Callback, Progress
+from .augmented_lagrangian import SphereConstraints, augmented_lagrangian_sphere
+from .cap import capped
 from .centring import centred, landmark_aligned, principal_rotation, surface_rotation, unit
 from .energy import SphereEnergy
 from .newton import SphereNewton, minimise_sphere_energy
@@ -31,7 +34,8 @@ Real = NDArray[np.float64]
 log = logging.getLogger(__name__)
 
 CHOICES = {
-    "method": ("newton", "linear"),
+    "method": ("newton", "linear", "augmented-lagrangian"),
+    "boundary": ("refuse", "cap"),
     "normalization": ("area", "centre", "none"),
     "rotation": ("principal", "surface", "none"),
     "laplacian": LAPLACIANS,
@@ -47,6 +51,7 @@ def sphere_map(
     normalization: str = "area",
     rotation: str = "principal",
     landmarks: Sequence[int] | None = None,
+    boundary: str = "refuse",
     tolerance: float = 1e-8,
     max_iterations: int = 50,
     laplacian: str = "auto",
@@ -61,9 +66,10 @@ def sphere_map(
     V : (n, 3) floats
     F : (m, 3) integers
         Triangles of one closed surface of genus 0, wound anticlockwise seen from outside.
-    method : {"newton", "linear"}
+    method : {"newton", "linear", "augmented-lagrangian"}
         "linear": the disk's map of the surface without its most regular vertex, projected stereographically.
         "newton": from there to a minimiser of the conformal energy among the maps that are centred by area.
+        "augmented-lagrangian": the same minimiser in the way of Choi's report, for small meshes.
     normalization : {"area", "centre", "none"}
         The Moebius map at the end: the centre of mass of the surface's area (each vertex's third of its faces), or
         of the vertices, comes to the middle of the ball; "none" leaves what the method ends with.
@@ -71,6 +77,8 @@ def sphere_map(
         To the principal axes of that mass, or as near as possible to the surface's own directions.
     landmarks : three vertex indices, optional
         Vertices sent to (0, 0, -1), (1, 0, 0) and (0, 0, 1), in the place of normalization and rotation.
+    boundary : {"refuse", "cap"}
+        What to do with boundary loops: refuse, or close each by a virtual vertex in its middle for the solution.
     tolerance : float
         Newton's method ends at this norm of the projected gradient.
     max_iterations, laplacian, repair, backend, callback
@@ -92,7 +100,12 @@ def sphere_map(
         The callback returned False.
     """
     given = dict(
-        method=method, normalization=normalization, rotation=rotation, laplacian=laplacian, repair=repair
+        method=method,
+        normalization=normalization,
+        rotation=rotation,
+        boundary=boundary,
+        laplacian=laplacian,
+        repair=repair,
     )
     for name, value in given.items():
         if value not in CHOICES[name]:
@@ -102,25 +115,35 @@ def sphere_map(
     library, progress = choose_backend(backend), Progress(callback)
     progress("checks", 0.0)
     surface = Surface.from_arrays(V, F)
+    n, m = surface.n, surface.m
+    if boundary == "cap" and surface.loops:
+        surface = Surface.from_arrays(*capped(surface))
     _require_sphere(surface)
-    marks = _landmarks(landmarks, surface.n)
+    marks = _landmarks(landmarks, n)
     mass = lumped_areas(surface.geometry, surface.corners, surface.n)
     mass = mass / mass.sum() if mass.sum() > 0.0 else np.full(surface.n, 1.0 / surface.n)
     edges = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, laplacian)
     x = centred(linear_sphere(surface, laplacian, library, progress), mass)
     x, folded = _unfolded(surface, x, mass, repair, progress)
-    history: tuple[NewtonStep, ...] = ()
+    history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...] = ()
     converged = True
-    if method == "newton":
-        found = _newton(surface, edges, x, mass, tolerance, max_iterations, library, progress)
-        x, history, converged = found
+    if method != "linear":
+        if method == "newton":
+            x, history, converged = _newton(
+                surface, edges, x, mass, tolerance, max_iterations, library, progress
+            )
+        else:
+            constrained = SphereConstraints(edges, surface.corners, mass)
+            x, history, converged = augmented_lagrangian_sphere(
+                constrained, x, max_iterations=max_iterations, progress=progress
+            )
         x, after = _unfolded(surface, x, mass, repair, progress)
         folded += after
         if not converged:
-            log.warning("newton stopped before its tolerance, after %d rows", len(history))
+            log.warning("%s stopped before its tolerance, after %d rows", method, len(history))
     progress("placement", 0.0)
     x = _placed(surface, x, mass, normalization, rotation, marks)
-    result = _result(surface, edges, x, history, converged, folded, method, normalization)
+    result = _result(surface, edges, x, (n, m), history, converged, folded, method, normalization)
     progress("placement", 1.0)
     return result
 
@@ -201,7 +224,8 @@ def _result(
     surface: Surface,
     edges: EdgeLaplacian,
     x: Real,
-    history: tuple[NewtonStep, ...],
+    own: tuple[int, int],
+    history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...],
     converged: bool,
     folded: int,
     method: str,
@@ -210,12 +234,15 @@ def _result(
     a, b, c = (x[corner] for corner in surface.corners)
     dirichlet = sum(edges.energy(column.astype(np.complex128)) for column in x.T)
     area = 0.5 * float(triangle_geometry(x, surface.corners).double_area.sum())
+    vertices, faces = own
+    inverted = inverted_faces(x, surface.corners)
     return SphereMap(
-        xyz=x,
+        xyz=x[:vertices],
+        full=x,
         dirichlet_energy=dirichlet,
         conformal_energy=dirichlet - area,
         signed_volume=float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0,
-        flipped=inverted_faces(x, surface.corners),
+        flipped=inverted[inverted < faces],
         converged=converged,
         history=history,
         repaired=folded,
