@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import bpy
 
+ROUND = (1.0, 1.0)
+
 
 def aspect_scale(ob: bpy.types.Object) -> tuple[float, float]:
     """Factors for u and v that keep a disk round on the image and within it; (1, 1) without an image."""
     image = _image(ob)
     if image is None or not image.size[0] or not image.size[1]:
-        return 1.0, 1.0
+        return ROUND
     width, height = image.size
     least = min(width, height)
     return least / width, least / height

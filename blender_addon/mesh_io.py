@@ -130,7 +130,7 @@ def write_uv(mesh: bpy.types.Mesh, uv_layer: str, uv: NDArray[np.float64], writt
     values = np.empty((len(mesh.loops), 2), dtype=np.float32)
     data = mesh.attributes[layer.name].data
     data.foreach_get("vector", values.reshape(-1))
-    values[written] = uv[written]
+    np.copyto(values, uv, where=written[:, None], casting="same_kind")
     data.foreach_set("vector", values.reshape(-1))
     mesh.update()
 

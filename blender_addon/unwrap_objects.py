@@ -12,7 +12,7 @@ from conformal_uv import CancelledError, ConformalUVError
 from conformal_uv.progress import Callback
 
 from .edit_mode import object_mode
-from .image_aspect import aspect_scale
+from .image_aspect import ROUND, aspect_scale
 from .kept_work import KEPT, KeptWork, Key
 from .mesh_io import write_uv
 from .packing import pack_with_blender
@@ -79,8 +79,9 @@ def _placed(task: Task) -> np.ndarray:
 
 def _write(task: Task, uv: np.ndarray, options: Options) -> None:
     mapped = task.solved.mapped
-    if options.correct_aspect:
-        uv = 0.5 + aspect_scale(task.ob) * (uv - 0.5)
+    scale = aspect_scale(task.ob) if options.correct_aspect else ROUND
+    if scale != ROUND:
+        uv = 0.5 + scale * (uv - 0.5)
     if task.subdivision is not None:
         uv, mapped = uv[task.subdivision.corner], task.subdivision.whole_faces(mapped)
         sizes = np.diff(task.subdivision.starts)

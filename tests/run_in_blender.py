@@ -2,14 +2,17 @@
 
     blender --background --python tests/run_in_blender.py [-- PYTEST ARGUMENTS]
 
-They test the repository's add-on; with CONFORMAL_UV_BLENDER_MODULE=bl_ext.user_default.conformal_uv the installed
-extension, which brings scipy and rectangle-packer itself.
+They test the extension where it is installed (it brings scipy and rectangle-packer), else the repository's add-on;
+CONFORMAL_UV_BLENDER_MODULE=blender_addon asks for that one.
 """
 
 import os
 import sys
 from pathlib import Path
 
+import bpy
+
+EXTENSION = "bl_ext.user_default.conformal_uv"
 FOLDER = Path(__file__).resolve().parent / "blender"
 
 
@@ -21,6 +24,8 @@ def main() -> int:
         sys.stderr.write(f"{sys.executable} has no pytest: install it into Blender's Python\n")
         return 1
     os.environ["CONFORMAL_UV_INSIDE_BLENDER"] = "1"
+    if EXTENSION in bpy.context.preferences.addons:
+        os.environ.setdefault("CONFORMAL_UV_BLENDER_MODULE", EXTENSION)
     given = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     return int(pytest.main(["-c", str(FOLDER / "pytest.ini"), *(given or [str(FOLDER)])]))
 
