@@ -123,7 +123,7 @@ def chart_meshes(mesh: PolygonMesh, surface: CutSurface, count: int) -> ChartMes
 
     by_chart, first_face = _grouped(surface.chart[polygon], count)
     by_chart_solved, first_solved = _grouped(surface.chart[solved_polygon], count)
-    scale = max(float(np.abs(surface.V).max()), np.finfo(float).tiny)
+    scale = max(float(np.abs(surface.V).max()), float(np.finfo(float).tiny))
     double = triangle_geometry(surface.V / scale, np.ascontiguousarray(F.T.astype(np.int32))).double_area
     return ChartMeshes(
         V[order],

@@ -56,7 +56,7 @@ class CutSurface:
 
     def side_lengths(self, sides: Ints) -> NDArray[np.float64]:
         """Lengths in the units of V over its largest coordinate."""
-        scale = max(float(np.abs(self.V).max()), np.finfo(float).tiny)
+        scale = max(float(np.abs(self.V).max()), float(np.finfo(float).tiny))
         V = self.V / scale
         return np.asarray(np.linalg.norm(V[self.vertex[sides]] - V[self.vertex[self.follow[sides]]], axis=1))
 

@@ -83,7 +83,7 @@ def minimise_boundary_energy(
     links = _gaps(energy.theta) < SMALLEST_GAP
     kept = np.full_like(links, links.any())  # on a crowded boundary gaps are mostly rounding, and links stay
     degrees = problem.Lbb.diagonal()
-    tolerance = max(tolerance, 64.0 * EPS * float(np.linalg.norm(degrees)))
+    tolerance = max(tolerance, 64.0 * float(EPS) * float(np.linalg.norm(degrees)))
     first = None
     for iteration in range(max_iterations + 1):
         tangent = Tangent(gauge, energy.theta, links)

@@ -17,7 +17,7 @@ NEWLINE, RETURN, BLANK, HASH, BACKSLASH = b"\n\r #\\"
 def spans(starts: NDArray[np.int64], lengths: NDArray[np.int64]) -> NDArray[np.int64]:
     """The indices start, start + 1, ... of every span, one span after the other."""
     offsets = np.cumsum(lengths) - lengths
-    return np.repeat(starts - offsets, lengths) + np.arange(lengths.sum())
+    return np.repeat(starts - offsets, lengths) + np.arange(int(lengths.sum()))
 
 
 class TextLines:

@@ -58,7 +58,7 @@ def terrain(n: int = 10000, seed: int = 0) -> Mesh:
     """
     side = int(np.ceil(np.sqrt(n)))
     rng = np.random.default_rng(seed)
-    grid = np.arange(side) / (side - 1)
+    grid = np.linspace(0.0, 1.0, side)
     x, y = (g.reshape(-1) for g in np.meshgrid(grid, grid))
     number = np.arange(side * side, dtype=np.int32).reshape(side, side)
     inner = np.zeros((side, side))
@@ -74,7 +74,7 @@ def terrain(n: int = 10000, seed: int = 0) -> Mesh:
     a, b = number[:-1, :-1].reshape(-1), number[:-1, 1:].reshape(-1)
     c, d = number[1:, 1:].reshape(-1), number[1:, :-1].reshape(-1)
     # The diagonal a-c is right when the angles at b and d sum to at most 180 degrees.
-    keep = _opposite_angles(x, y, a, b, c) + _opposite_angles(x, y, a, d, c) <= np.pi
+    keep = (_opposite_angles(x, y, a, b, c) + _opposite_angles(x, y, a, d, c)) <= np.pi
     first = np.where(keep, np.stack((a, b, c)), np.stack((a, b, d)))
     second = np.where(keep, np.stack((a, c, d)), np.stack((b, c, d)))
     return np.column_stack((x, y, z)), np.concatenate((first, second), axis=1).T.copy()
