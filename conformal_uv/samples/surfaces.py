@@ -59,7 +59,7 @@ def terrain(n: int = 10000, seed: int = 0) -> Mesh:
     side = int(np.ceil(np.sqrt(n)))
     rng = np.random.default_rng(seed)
     grid = np.linspace(0.0, 1.0, side)
-    x, y = (g.reshape(-1) for g in np.meshgrid(grid, grid))
+    x, y = np.tile(grid, side), np.repeat(grid, side)
     number = np.arange(side * side, dtype=np.int32).reshape(side, side)
     inner = np.zeros((side, side))
     inner[1:-1, 1:-1] = 0.3 / (side - 1)
