@@ -63,8 +63,8 @@ def terrain(n: int = 10000, seed: int = 0) -> Mesh:
     number = np.arange(side * side, dtype=np.int32).reshape(side, side)
     inner = np.zeros((side, side))
     inner[1:-1, 1:-1] = 0.3 / (side - 1)
-    x = x + inner.reshape(-1) * rng.uniform(-1.0, 1.0, side * side)
-    y = y + inner.reshape(-1) * rng.uniform(-1.0, 1.0, side * side)
+    x += inner.reshape(-1) * rng.uniform(-1.0, 1.0, side * side)
+    y += inner.reshape(-1) * rng.uniform(-1.0, 1.0, side * side)
     z = np.zeros(side * side)
     for octave in range(6):
         frequency, height = 2.0**octave * np.pi, 0.12 / 2.0**octave

@@ -22,7 +22,7 @@ def triangle_normals(x: Real, corners: NDArray[np.int32]) -> tuple[Real, Real, R
     """Doubled areas (m,), unit normals (m, 3), and the edges (m, 3) from corner 0 to corners 1 and 2."""
     a, b, c = (x[corner] for corner in corners)
     ab, ac = b - a, c - a
-    normal = np.cross(ab, ac)
+    normal = _cross(ab, ac)
     double_area = np.linalg.norm(normal, axis=1)
     return double_area, normal / np.maximum(double_area, TINY)[:, None], ab, ac
 
@@ -35,7 +35,7 @@ def laplace(laplacian: EdgeLaplacian, x: Real) -> Real:
 
 def area_gradient(corners: NDArray[np.int32], normal: Real, ab: Real, ac: Real, n: int) -> Real:
     """Half the normal times the opposite edge, gathered at the vertices (n, 3); bilinear in normal and edges."""
-    at_b, at_c = 0.5 * np.cross(ac, normal), 0.5 * np.cross(normal, ab)
+    at_b, at_c = 0.5 * _cross(ac, normal), 0.5 * _cross(normal, ab)
     return _gathered(tuple(corners), (-at_b - at_c, at_b, at_c), n)
 
 
@@ -45,12 +45,22 @@ def area_hessian_product(
     """Hessian of the area times a direction (n, 3); `signed_area` is the doubled area with the sign of the normal."""
     a, b, c = (direction[corner] for corner in corners)
     d_ab, d_ac = b - a, c - a
-    change = np.cross(d_ab, ac) + np.cross(ab, d_ac)
+    change = _cross(d_ab, ac) + _cross(ab, d_ac)
     along = np.einsum("ij,ij->i", change, normal)
     scale = np.sign(signed_area) / np.maximum(np.abs(signed_area), TINY)
     turned = (change - along[:, None] * normal) * scale[:, None]
     n = len(direction)
     return area_gradient(corners, turned, ab, ac, n) + area_gradient(corners, normal, d_ab, d_ac, n)
+
+
+def _cross(p: Real, q: Real) -> Real:
+    """Vector products of rows (m, 3); numpy's makes more temporaries."""
+    out = np.empty_like(p)
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        np.multiply(p[:, i], q[:, j], out=out[:, k])
+        out[:, k] -= p[:, j] * q[:, i]
+    return out
 
 
 class SphereEnergy:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from ..disk.newton import NewtonStep
 from ..operators.dirichlet import DirichletProblem
 from ..progress import Progress
-from .centring import centred
+from .centring import centred, unit
 from .energy import SphereEnergy
 
 __all__ = ["SphereNewton", "minimise_sphere_energy"]
@@ -42,8 +43,11 @@ class _Held:
         self._energy, self._problem = energy, problem
         axes = [energy.tangent(mass[:, None] * np.eye(3)[k]).reshape(-1) for k in range(3)]
         self._basis, _ = np.linalg.qr(np.column_stack(axes))
-        self._image = np.column_stack([self._smooth(column) for column in self._basis.T])
-        self._gram = self._basis.T @ self._image
+
+    @cached_property
+    def _image(self) -> Real:
+        """Preconditioned constraints, (3 n, 3)."""
+        return np.column_stack([self._smooth(column) for column in self._basis.T])
 
     def project(self, vectors: Real) -> Real:
         """Orthogonal projection of tangent vectors (n, 3)."""
@@ -53,7 +57,7 @@ class _Held:
     def precondition(self, residual: Real) -> Real:
         """The free direction d that minimises 1/2 d' L d - residual' d."""
         free = self._smooth(residual.reshape(-1))
-        held = free - self._image @ np.linalg.solve(self._gram, self._basis.T @ free)
+        held = free - self._image @ np.linalg.solve(self._basis.T @ self._image, self._basis.T @ free)
         return self.project(held.reshape(-1, 3))  # once more, against rounding
 
     def _smooth(self, residual: Real) -> Real:
@@ -140,8 +144,8 @@ def _line_search(
     least = VOLUME_KEPT * _volume(energy)
     length = 1.0
     for _ in range(30):
-        moved = SphereEnergy(energy.laplacian, energy.corners, energy.x + length * direction)
-        trial = SphereEnergy(energy.laplacian, energy.corners, centred(moved.x, mass))
+        moved = centred(unit(energy.x + length * direction), mass)
+        trial = SphereEnergy(energy.laplacian, energy.corners, moved)
         change = trial.value - energy.value
         if _volume(trial) >= least:
             if change <= SUFFICIENT_DECREASE * length * slope and change < -noise:
