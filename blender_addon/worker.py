@@ -30,6 +30,11 @@ class Worker:
     context : bpy.types.Context
     objects : objects to unwrap
     options : Options
+
+    Attributes
+    ----------
+    fraction : float
+        How far the thread has come.
     """
 
     def __init__(
@@ -39,7 +44,7 @@ class Worker:
         self._options = options
         self._kept = KEPT.fork()
         self._stop = Event()
-        self._stage, self._fraction = "", 0.0
+        self._stage, self.fraction = "", 0.0
         self._error: Exception | None = None
         self._thread = Thread(target=self._run, name="conformal_uv", daemon=True)
         self._timer: bpy.types.Timer | None = None
@@ -66,7 +71,7 @@ class Worker:
 
     def show(self, context: bpy.types.Context) -> None:
         """Tell stage and fraction in the status bar and at the cursor."""
-        percent = int(100 * self._fraction)
+        percent = int(100 * self.fraction)
         context.window_manager.progress_update(percent)
         context.workspace.status_text_set(f"Conformal Disk Unwrap: {self._stage} {percent} %      Esc: Cancel")
 
@@ -102,5 +107,5 @@ class Worker:
             self._error = error
 
     def _told(self, stage: str, fraction: float) -> bool:
-        self._stage, self._fraction = stage, fraction
+        self._stage, self.fraction = stage, fraction
         return not self._stop.is_set()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from threading import Event
 
 import bpy
 import numpy as np
@@ -179,13 +180,25 @@ def test_thread_leaves_its_work_for_execute(addon, factorizations):
     assert scenes.shadowed(scenes.uvs(ob)) != before
 
 
-def test_cancel_changes_nothing(addon, factorizations):
+def test_cancel_stops_the_thread_and_changes_nothing(addon, monkeypatch, factorizations):
+    import conformal_uv.operators.dirichlet as dirichlet
+
+    cancelled, counting = Event(), dirichlet.factorize
+
+    def waiting(*arguments, **keywords):
+        assert cancelled.wait(10.0)
+        return counting(*arguments, **keywords)
+
     ob, window = scenes.grid(60, 50), Window()
     before = scenes.shadowed(scenes.uvs(ob))
-    work = started(addon, window)
-    work.cancel(window)
-    waited(work)
+    with monkeypatch.context() as patched:
+        patched.setattr(dirichlet, "factorize", waiting)
+        work = started(addon, window)
+        work.cancel(window)
+        cancelled.set()
+        waited(work)
     assert window.timers == 0 and window.texts[-1] is None
+    assert work.fraction < 0.6  # it stopped at the first report after the factorization, if it came so far
     assert scenes.shadowed(scenes.uvs(ob)) == before
     count = len(factorizations)
     bpy.ops.uv.conformal_unwrap()
