@@ -1,8 +1,8 @@
 """The centre of a map is known only to within a cell of the mesh; inside it, the least energy decides.
 
 A vertex held at 0 is off the point that belongs there by a fraction of an edge, and a Moebius map by so little
-already costs discrete energy: a flat disk would not come back as itself. Where the energy has its minimum with
-the centre's image free, and free it stays within the star of the central vertex, that minimum is the map.
+already costs discrete energy: a flat disk would not come back as itself. Where that is a good part of the energy, and
+the minimum with the centre's image free leaves it within the star of the central vertex, that minimum is the map.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ from .options import DiskOptions
 
 __all__ = ["release_centre"]
 
+WORTH_WHILE = 0.1  # part of the energy that there must be to gain
+
 
 def release_centre(
     surface: Surface,
@@ -30,7 +32,7 @@ def release_centre(
     options: DiskOptions,
     progress: Progress,
 ) -> tuple[NewtonResult, bool]:
-    """Minimise without holding the centre, where that keeps it in its cell.
+    """Minimise without holding the centre, where that is worth while and keeps it in its cell.
 
     Parameters
     ----------
@@ -44,7 +46,8 @@ def release_centre(
     if measure.centre is None:
         return found, False
     reach = _star_radius(surface, problem, measure.centre, found.energy)
-    if not _predicted_shift(found.energy) < reach:
+    predicted, gain = _predicted_shift(found.energy)
+    if not predicted < reach or gain < WORTH_WHILE * found.energy.value:
         return found, False
     free = minimise_boundary_energy(
         problem,
@@ -70,8 +73,8 @@ def _star_radius(surface: Surface, problem: DirichletProblem, centre: int, energ
     return float(np.abs(z[neighbours] - z[centre]).max())
 
 
-def _predicted_shift(energy: BoundaryEnergy) -> float:
-    """How far Newton's step in the two Moebius directions that move the centre would move it.
+def _predicted_shift(energy: BoundaryEnergy) -> tuple[float, float]:
+    """How far Newton's step in the two Moebius directions that move the centre would move it, and what it gains.
 
     A map of the disk that moves 0 to a turns the angles by ``2 Im(a exp(-i theta))`` to first order.
     """
@@ -79,5 +82,6 @@ def _predicted_shift(energy: BoundaryEnergy) -> float:
     slope = moves.T @ energy.gradient
     curvature = moves.T @ np.column_stack([energy.hessian_product(move) for move in moves.T])
     if np.linalg.eigvalsh(curvature)[0] <= 0.0:
-        return np.inf
-    return float(np.linalg.norm(np.linalg.solve(curvature, slope)))
+        return np.inf, 0.0
+    step = np.linalg.solve(curvature, slope)
+    return float(np.linalg.norm(step)), 0.5 * float(slope @ step)
