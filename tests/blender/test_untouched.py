@@ -42,7 +42,8 @@ def test_all_visible_faces_on_request_and_where_none_is_selected_in_object_mode(
     ob.data.polygons.foreach_set("select", np.zeros(len(ob.data.polygons), dtype=bool))
     before = scenes.uvs(ob)
     bpy.ops.uv.conformal_unwrap(rotation=1.0)
-    assert (scenes.uvs(ob) != before).any(axis=1).all()
+    turned = np.abs(before - 0.5).max(axis=1) > 1e-6  # the vertex in the middle stays there
+    assert (scenes.uvs(ob) != before).any(axis=1)[turned].all() and (~turned).sum() <= 6
 
 
 def test_other_uv_maps_stay():

@@ -217,7 +217,8 @@ def test_blender_packs_at_relative_sizes():
         assert size[1] == pytest.approx(3.0 * size[0], rel=0.01)
         both = np.concatenate((one, other))
         assert both.min() >= -1e-6 and both.max() <= 1.0 + 1e-6
-        gap = np.hypot(*(one.mean(axis=0) - other.mean(axis=0))) - sum(size) / 2.0
+        middle = [(uv.min(axis=0) + uv.max(axis=0)) / 2.0 for uv in (one, other)]
+        gap = np.hypot(*(middle[0] - middle[1])) - sum(size) / 2.0
         assert gap > 0.0
         assert {ob.name for ob in bpy.data.objects} == {"Small", "Large"}
         assert set(bpy.context.selected_objects) == {small, large}
