@@ -120,6 +120,10 @@ def test_intrinsic_weights_are_not_negative_and_the_surface_stays(seed: int) -> 
     np.testing.assert_array_equal(found.twin[found.twin[inner]], inner)
     flat = found.lengths.reshape(-1)
     np.testing.assert_allclose(flat[inner], flat[found.twin[inner]], rtol=8 * EPS)
+    # Before what rounding leaves below 0 is set to 0: cot a + cot b of every flippable edge.
+    cot = np.roll(found.cotangents, 1, axis=0).reshape(-1)  # the corner opposite to half-edge c is c + 2
+    here, there = cot[inner], cot[found.twin[inner]]
+    assert (here + there >= -16 * EPS * (np.abs(here) + np.abs(there) + 1)).all()
     laplacian = intrinsic_delaunay_edges(surface.corners, surface.edges.twin, surface.geometry, surface.n)
     on_boundary = np.isin(laplacian.lo, surface.loops[0]) & np.isin(laplacian.hi, surface.loops[0])
     assert laplacian.weights[~on_boundary].min() >= 0

@@ -109,5 +109,5 @@ def _minimised(problem: SphereConstraints, x: Real, y: Real, rho: float, toleran
         return problem.hessian_product(flat.reshape(-1, 3), direction.reshape(-1, 3), y, rho).reshape(-1)
 
     options = {"maxiter": INNER_STEPS, "gtol": tolerance}
-    found = minimize(augmented, x.reshape(-1), jac=True, hessp=bent, method="trust-krylov", options=options)
+    found = minimize(augmented, x.reshape(-1), jac=True, hessp=bent, method="trust-ncg", options=options)
     return np.asarray(found.x, dtype=np.float64).reshape(-1, 3)

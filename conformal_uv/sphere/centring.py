@@ -13,7 +13,7 @@ from ..errors import SolverError
 from ..operators.moebius import Moebius
 from .stereographic import from_plane, to_plane
 
-__all__ = ["centred", "landmark_aligned", "principal_rotation", "surface_rotation", "unit"]
+__all__ = ["centred", "landmark_aligned", "principal_rotation", "surface_rotation", "turn_to_pole", "unit"]
 
 Real = NDArray[np.float64]
 
@@ -75,7 +75,7 @@ def landmark_aligned(x: Real, landmarks: tuple[int, int, int]) -> Real:
     """The map with the three vertices at (0, 0, -1), (1, 0, 0) and (0, 0, 1)."""
     at = list(landmarks)
     # Turn the third to the pole exactly, then fix the plane by a similarity: infinity stays where it is.
-    x = x @ _turn_to_pole(x[at[2]]).T
+    x = x @ turn_to_pole(x[at[2]]).T
     others = np.delete(np.arange(len(x)), at[2])
     z = np.zeros(len(x), dtype=np.complex128)
     z[others] = to_plane(x[others])
@@ -85,7 +85,7 @@ def landmark_aligned(x: Real, landmarks: tuple[int, int, int]) -> Real:
     return out
 
 
-def _turn_to_pole(p: Real) -> Real:
+def turn_to_pole(p: Real) -> Real:
     """A rotation (3, 3) that takes the unit vector p to (0, 0, 1)."""
     other = np.eye(3)[np.argmin(np.abs(p))]
     first = np.cross(other, p)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..disk.repair import repaired
 from ..mesh.surface import Surface
 from ..progress import Progress
-from .centring import unit
+from .centring import turn_to_pole, unit
 from .stereographic import from_plane, to_plane
 
 __all__ = ["inverted_faces", "unfolded"]
@@ -49,7 +49,7 @@ def _unfolded_about(
     if not len(sound):
         return x
     base = int(sound[np.argmin(middle[sound] @ middle[fold])])
-    turn = _to_pole(middle[base])
+    turn = turn_to_pole(middle[base])
     z = to_plane(x @ turn.T)
     reach = float(np.abs(z[corners[:, base]]).max())
     disk = Surface.from_arrays(surface.V, np.delete(surface.F, base, axis=0))
@@ -61,10 +61,3 @@ def _volumes(x: Real, corners: NDArray[np.int32]) -> Real:
     """Six times the signed volume of the tetrahedron from the origin to each face."""
     a, b, c = (x[corner] for corner in corners)
     return np.einsum("ij,ij->i", a, np.cross(b, c))
-
-
-def _to_pole(p: Real) -> Real:
-    other = np.eye(3)[np.argmin(np.abs(p))]
-    first = np.cross(other, p)
-    first /= np.linalg.norm(first)
-    return np.stack((first, np.cross(p, first), p))
