@@ -64,7 +64,7 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
     V, corners = split_edges(surface.V, surface.corners, surface.edges, chord_edges(surface, loop))
     edges, geometry = half_edges(corners, len(V)), triangle_geometry(V, corners)
     laplacian = edge_laplacian(corners, edges, geometry, len(V))
-    refined = DirichletProblem(laplacian, loop, len(V), backend=problem.backend)
+    refined = DirichletProblem(laplacian, loop, len(V), points=V, backend=problem.backend)
     pole = centre if centre is not None else torsion_centre(lumped_areas(geometry, corners, len(V)), refined)
     fine = refined.harmonic_measure(pole)
     if measure is None or (measure < 0.0).any():

@@ -130,7 +130,7 @@ class DiskMapper:
             progress("assembly", 0.0)
             laplacian = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, kind)
             problem = DirichletProblem(
-                laplacian, self.boundary, surface.n, backend=self.backend, progress=progress
+                laplacian, self.boundary, surface.n, points=surface.V, backend=self.backend, progress=progress
             )
             progress("linear", 0.0)
             self._factorized[kind] = problem, centred_measure(surface, problem)

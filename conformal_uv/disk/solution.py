@@ -89,7 +89,7 @@ def solve_augmented_lagrangian(
     """
     check_areas(surface.geometry)
     edges, n = surface.edges, surface.n
-    tutte = DirichletProblem(uniform_edges(edges), loop, n, backend=backend)
+    tutte = DirichletProblem(uniform_edges(edges), loop, n, points=surface.V, backend=backend)
     start = tutte.extend(np.exp(2j * np.pi / len(loop) * np.arange(len(loop))))
     found = augmented_lagrangian(
         laplacian_matrix(edges, 2.0 * cotangent_weights(edges, surface.geometry), n),

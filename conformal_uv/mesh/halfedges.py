@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
-__all__ = ["HalfEdges", "half_edges", "sorted_keys"]
+__all__ = ["HalfEdges", "half_edges", "sorted_pairs"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,41 +41,34 @@ def half_edges(corners: NDArray[np.int32], n: int) -> HalfEdges:
     """Pair the half-edges of the faces ``corners`` (3, m) over n vertices."""
     tail = corners.reshape(-1)
     head = corners[[1, 2, 0]].reshape(-1)
-    n = int(n)
-    key = np.minimum(tail, head).astype(np.int64)
-    key *= n
-    key += np.maximum(tail, head)
-    key, order = sorted_keys(key, n)
+    lo, hi = np.minimum(tail, head), np.maximum(tail, head, out=head)
+    order = sorted_pairs(lo, hi, int(n))
+    lo, hi = lo.take(order), hi.take(order)
 
-    first = np.empty(len(key), dtype=bool)  # first half-edge of its edge, in sorted order
+    first = np.empty(len(order), dtype=bool)  # first half-edge of its edge, in sorted order
     first[0] = True
-    np.not_equal(key[1:], key[:-1], out=first[1:])
-    start = np.flatnonzero(first)
-    count = np.diff(start, append=len(key))
-    lo, hi = np.divmod(key[start], n)
-    edge = np.empty(len(key), dtype=np.int32)
+    np.not_equal(lo[1:], lo[:-1], out=first[1:])
+    first[1:] |= hi[1:] != hi[:-1]
+    edge = np.empty(len(order), dtype=np.int32)
     edge[order] = np.cumsum(first, dtype=np.int32) - np.int32(1)
+    start = np.flatnonzero(first).astype(np.int32)
+    count = np.diff(start, append=np.int32(len(order)))
 
-    twin = np.full(len(key), -1, dtype=np.int32)
+    twin = np.full(len(order), -1, dtype=np.int32)
     pair = start[count == 2]
-    twin[order[pair]] = order[pair + 1]
-    twin[order[pair + 1]] = order[pair]
+    one, other = order.take(pair), order.take(pair + 1)
+    twin[one], twin[other] = other, one
     if count.max() > 2:
         twin[(count > 2)[edge]] = -2
-    return HalfEdges(
-        lo.astype(np.int32), hi.astype(np.int32), edge, np.minimum(count, 127).astype(np.int8), twin
-    )
+    return HalfEdges(lo.take(start), hi.take(start), edge, np.minimum(count, 127).astype(np.int8), twin)
 
 
-def sorted_keys(key: NDArray[np.int64], n: int) -> tuple[NDArray[np.int64], NDArray[np.integer]]:
-    """Keys below n * n in order, and the permutation; packed into one integer where both fit into 63 bits."""
-    bits = len(key).bit_length()
-    if (n * n).bit_length() + bits > 63:
-        order = np.argsort(key)
-        return key[order], order
-    key <<= bits
-    key |= np.arange(len(key))
-    key.sort()
-    order = (key & ((1 << bits) - 1)).astype(np.int32)
-    key >>= bits
-    return key, order
+def sorted_pairs(lo: NDArray[np.integer], hi: NDArray[np.integer], n: int) -> NDArray[np.int32]:
+    """The stable order of pairs of numbers below n by (lo, hi).
+
+    A sort by buckets, first by hi and then by lo: turning a sparse matrix with one entry a row from rows into columns
+    is just that.
+    """
+    row = np.arange(len(lo) + 1, dtype=np.int32)
+    by_hi = csr_array((lo, hi, row), shape=(len(lo), n)).tocsc()
+    return csr_array((by_hi.indices, by_hi.data, row), shape=(len(lo), n)).tocsc().data

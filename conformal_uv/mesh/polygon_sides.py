@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .halfedges import sorted_keys
+from .halfedges import sorted_pairs
 from .polygons import PolygonMesh
 
 __all__ = ["PolygonSides", "edge_keys", "following_corners", "polygon_sides"]
@@ -50,7 +50,9 @@ class PolygonSides:
 def polygon_sides(mesh: PolygonMesh) -> PolygonSides:
     """Pair the sides of the polygons; at least one polygon, every polygon with at least one corner."""
     follow, n = following_corners(mesh), len(mesh.V)
-    key, order = sorted_keys(edge_keys(mesh.corners, mesh.corners[follow], n), n)
+    head = mesh.corners[follow]
+    order = sorted_pairs(np.minimum(mesh.corners, head), np.maximum(mesh.corners, head), n)
+    key = edge_keys(mesh.corners, head, n)[order]
     first = np.ones(len(key), dtype=bool)
     np.not_equal(key[1:], key[:-1], out=first[1:])
     start = np.flatnonzero(first)

@@ -74,8 +74,21 @@ def choose_backend(backend: str = "auto") -> str:
     return name
 
 
-def factorize(matrix: LowerTriangle, backend: str = "auto", progress: Progress | None = None) -> Factorization:
+def factorize(
+    matrix: LowerTriangle,
+    backend: str = "auto",
+    progress: Progress | None = None,
+    order: NDArray[np.int32] | None = None,
+) -> Factorization:
     """Factorize a symmetric positive definite matrix.
+
+    Parameters
+    ----------
+    matrix : LowerTriangle
+    backend : {"auto", "cholmod", "superlu"}
+    order : (n,) int32, optional
+        In which to eliminate the unknowns; by default the library looks for one (CHOLMOD by approximate minimum
+        degree, SuperLU by multiple minimum degree).
 
     Raises
     ------
@@ -84,13 +97,13 @@ def factorize(matrix: LowerTriangle, backend: str = "auto", progress: Progress |
     """
     progress = progress or Progress()
     name = choose_backend(backend)
-    return (_Cholmod if name == "cholmod" else _SuperLU)(matrix, progress)
+    return (_Cholmod if name == "cholmod" else _SuperLU)(matrix, progress, order)
 
 
 class _Cholmod:
     backend = "cholmod"
 
-    def __init__(self, matrix: LowerTriangle, progress: Progress) -> None:
+    def __init__(self, matrix: LowerTriangle, progress: Progress, order: NDArray[np.int32] | None) -> None:
         from cvxopt import cholmod, spmatrix
         from cvxopt import matrix as dense
 
@@ -98,17 +111,21 @@ class _Cholmod:
         rows = matrix.indices.astype(np.int64)
         lower = spmatrix(dense(matrix.data), dense(rows), dense(columns), (matrix.n, matrix.n))
         del columns, rows
-        progress("ordering", 0.0)
         self._dense, self._cholmod = dense, cholmod
-        self._factor = cholmod.symbolic(lower, uplo="L")
+        if order is None:
+            self._factor = cholmod.symbolic(lower, uplo="L")
+        else:
+            methods = cholmod.options.get("nmethods", 0)
+            cholmod.options["nmethods"] = 1  # the given order, without trying others
+            try:
+                self._factor = cholmod.symbolic(lower, p=dense(order.astype(np.int64)), uplo="L")
+            finally:
+                cholmod.options["nmethods"] = methods
         progress("factorization", 0.0)
         try:
             cholmod.numeric(lower, self._factor)
         except ArithmeticError as error:
-            raise SolverError(
-                f"The Laplacian of {matrix.n} interior vertices is singular to working precision ({error}); "
-                "the mesh has faces too thin for it."
-            ) from error
+            raise _singular(matrix.n, error) from error
         progress("factorization", 1.0)
 
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -120,25 +137,44 @@ class _Cholmod:
 class _SuperLU:
     backend = "superlu"
 
-    def __init__(self, matrix: LowerTriangle, progress: Progress) -> None:
-        lower = csc_array((matrix.data, matrix.indices, matrix.indptr), shape=(matrix.n, matrix.n))
-        strict = lower.copy()
-        strict.data[matrix.indptr[:-1]] = 0.0
-        full = (lower + strict.T).tocsc()
-        del lower, strict
+    def __init__(self, matrix: LowerTriangle, progress: Progress, order: NDArray[np.int32] | None) -> None:
+        n = matrix.n
+        self._order = order
+        column = np.repeat(np.arange(n, dtype=np.int32), np.diff(matrix.indptr))
+        row = matrix.indices
+        if order is not None:
+            number = np.empty(n, dtype=np.int32)
+            number[order] = np.arange(n, dtype=np.int32)
+            row, column = number.take(row), number.take(column)
+        strict = np.ones(len(matrix.data), dtype=bool)
+        strict[matrix.indptr[:-1]] = False
+        values = np.concatenate((matrix.data, matrix.data[strict]))
+        places = np.concatenate((row, column[strict])), np.concatenate((column, row[strict]))
+        full = csc_array((values, places), shape=(n, n))
+        del row, column, strict, values, places
         full.indices, full.indptr = full.indices.astype(np.int32), full.indptr.astype(np.int32)
-        progress("ordering", 0.0)  # SuperLU orders and factorizes in one call
-        progress("factorization", 0.0)
+        progress("factorization", 0.0)  # where SuperLU looks for the order itself, it does so in the same call
         try:
             self._factor = splu(
-                full, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+                full,
+                permc_spec="MMD_AT_PLUS_A" if order is None else "NATURAL",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
             )
         except RuntimeError as error:
-            raise SolverError(
-                f"The Laplacian of {matrix.n} interior vertices is singular to working precision ({error}); "
-                "the mesh has faces too thin for it."
-            ) from error
+            raise _singular(n, error) from error
         progress("factorization", 1.0)
 
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._factor.solve(rhs)
+        if self._order is None:
+            return self._factor.solve(rhs)
+        out = np.empty_like(rhs)
+        out[self._order] = self._factor.solve(rhs[self._order])
+        return out
+
+
+def _singular(n: int, error: Exception) -> SolverError:
+    return SolverError(
+        f"The Laplacian of {n} interior vertices is singular to working precision ({error}); "
+        "the mesh has faces too thin for it."
+    )

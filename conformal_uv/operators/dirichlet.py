@@ -9,9 +9,11 @@ from scipy.sparse import csr_array
 from ..progress import Progress
 from .cholesky import Factorization, LowerTriangle, choose_backend, factorize
 from .edge_laplacian import EdgeLaplacian
+from .nested_dissection import nested_dissection
 
-__all__ = ["DirichletProblem"]
+__all__ = ["DirichletProblem", "interior_matrix"]
 
+FEW = 2000  # interior vertices, which the libraries order as fast
 WIDE_SPREAD = 1e6  # of the largest weight over the median
 CORRECTIONS = 2  # steps of iterative refinement where weights spread so wide
 
@@ -22,11 +24,13 @@ class DirichletProblem:
     Parameters
     ----------
     laplacian : EdgeLaplacian
-        Lii must come out positive definite. The order of its edges makes the interior block without another sort.
+        Lii must come out positive definite.
     boundary : (nb,) integers
         Vertices with given values.
     n : int
         Number of vertices.
+    points : (n, d) float64, optional
+        Positions of the vertices. They speed up the factorization: the order of elimination is read off them.
     backend : {"auto", "cholmod", "superlu"}
     progress : Progress, optional
 
@@ -42,6 +46,7 @@ class DirichletProblem:
         boundary: NDArray[np.int64],
         n: int,
         *,
+        points: NDArray[np.float64] | None = None,
         backend: str = "auto",
         progress: Progress | None = None,
     ) -> None:
@@ -49,12 +54,8 @@ class DirichletProblem:
         self.laplacian = laplacian
         self.n = n
         self.boundary = boundary
-        inside = np.ones(n, dtype=bool)
-        inside[boundary] = False
-        self.interior: NDArray[np.int64] = np.flatnonzero(inside)
-        number = np.empty(n, dtype=np.int32)  # place within the interior or within the boundary
-        number[self.interior] = np.arange(len(self.interior), dtype=np.int32)
-        number[boundary] = np.arange(len(boundary), dtype=np.int32)
+        inside, self.interior, number = _numbered(boundary, n)
+        self._degree = _degrees(laplacian, n)
         self._blocks(inside, number)
         self.backend = choose_backend(backend)
         positive = laplacian.weights[laplacian.weights > 0.0]
@@ -62,12 +63,16 @@ class DirichletProblem:
         self._corrections = CORRECTIONS if wide else 0
         self._factor: Factorization | None = None
         if len(self.interior):
-            self._factor = factorize(self._interior_block(inside, number), backend, progress)
+            matrix = interior_matrix(laplacian, boundary, n)
+            progress("ordering", 0.0)
+            order = None
+            if points is not None and matrix.n > FEW:
+                order = nested_dissection(points[self.interior], matrix.indices, matrix.indptr)
+            self._factor = factorize(matrix, backend, progress, order)
 
     def _blocks(self, inside: NDArray[np.bool_], number: NDArray[np.int32]) -> None:
         """Lib and Lbb, a few entries for each boundary vertex."""
         lo, hi, weights = self.laplacian.lo, self.laplacian.hi, self.laplacian.weights
-        self._degree = np.bincount(lo, weights, self.n) + np.bincount(hi, weights, self.n)
         touching = np.flatnonzero(~(inside[lo] & inside[hi]))
         i, j, w = lo[touching], hi[touching], weights[touching]
         mixed = inside[i] | inside[j]
@@ -82,22 +87,6 @@ class DirichletProblem:
         self.Lbb = csr_array(
             (values, (np.concatenate((i, j, d)), np.concatenate((j, i, d)))), shape=(nb, nb)
         )
-
-    def _interior_block(self, inside: NDArray[np.bool_], number: NDArray[np.int32]) -> LowerTriangle:
-        """Lower triangle of Lii; edges sorted by (lo, hi) already stand in its column order."""
-        lo, hi, weights = self.laplacian.lo, self.laplacian.hi, self.laplacian.weights
-        both = np.flatnonzero(inside[lo] & inside[hi])
-        column, row = number[lo[both]], number[hi[both]]
-        ni = len(self.interior)
-        indptr = np.zeros(ni + 1, dtype=np.int64)
-        np.cumsum(np.bincount(column, minlength=ni) + 1, out=indptr[1:])
-        data = np.empty(indptr[-1])
-        indices = np.empty(indptr[-1], dtype=np.int32)
-        place = np.arange(1, len(both) + 1) + column
-        data[place], indices[place] = -weights[both], row
-        data[indptr[:-1]] = self._degree[self.interior]
-        indices[indptr[:-1]] = np.arange(ni, dtype=np.int32)
-        return LowerTriangle(data, indices, indptr)
 
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
         """``Lii^-1 rhs`` for rhs (ni,) or (ni, k).
@@ -149,3 +138,42 @@ class DirichletProblem:
         pole = np.zeros(len(self.interior))
         pole[np.searchsorted(self.interior, vertex)] = 1.0
         return -(self.Lbi @ self.solve(pole))
+
+
+def interior_matrix(laplacian: EdgeLaplacian, boundary: NDArray[np.int64], n: int) -> LowerTriangle:
+    """Lii: rows and columns of the vertices that are not on the boundary, in their order.
+
+    Sorted edges already stand in the order of its columns.
+    """
+    inside, interior, number = _numbered(boundary, n)
+    lo, hi, weights = laplacian.lo, laplacian.hi, laplacian.weights
+    both = np.flatnonzero(inside[lo] & inside[hi])
+    column, row = number[lo[both]], number[hi[both]]
+    ni = len(interior)
+    indptr = np.zeros(ni + 1, dtype=np.int64)
+    np.cumsum(np.bincount(column, minlength=ni) + 1, out=indptr[1:])
+    data = np.empty(indptr[-1])
+    indices = np.empty(indptr[-1], dtype=np.int32)
+    place = np.arange(1, len(both) + 1) + column
+    data[place], indices[place] = -weights[both], row
+    data[indptr[:-1]] = _degrees(laplacian, n)[interior]
+    indices[indptr[:-1]] = np.arange(ni, dtype=np.int32)
+    return LowerTriangle(data, indices, indptr)
+
+
+def _numbered(
+    boundary: NDArray[np.int64], n: int
+) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int32]]:
+    """Which vertices are interior, the list of them, and each vertex's place within the interior or the boundary."""
+    inside = np.ones(n, dtype=bool)
+    inside[boundary] = False
+    interior = np.flatnonzero(inside)
+    number = np.empty(n, dtype=np.int32)
+    number[interior] = np.arange(len(interior), dtype=np.int32)
+    number[boundary] = np.arange(len(boundary), dtype=np.int32)
+    return inside, interior, number
+
+
+def _degrees(laplacian: EdgeLaplacian, n: int) -> NDArray[np.float64]:
+    """Sum of the weights around each vertex, (n,)."""
+    return np.bincount(laplacian.lo, laplacian.weights, n) + np.bincount(laplacian.hi, laplacian.weights, n)

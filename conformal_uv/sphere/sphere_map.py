@@ -198,7 +198,9 @@ def _newton(
     progress: Progress,
 ) -> SphereNewton:
     grounded = np.array([most_regular_vertex(surface)])
-    problem = DirichletProblem(edges, grounded, surface.n, backend=backend, progress=progress)
+    problem = DirichletProblem(
+        edges, grounded, surface.n, points=surface.V, backend=backend, progress=progress
+    )
     start = SphereEnergy(edges, surface.corners, x)
     return minimise_sphere_energy(
         start, problem, mass, tolerance=tolerance, max_iterations=max_iterations, progress=progress

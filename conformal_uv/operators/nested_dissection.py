@@ -1,0 +1,104 @@
+"""A fill-reducing order of a surface's vertices, from their positions: nested dissection.
+
+A. George, "Nested dissection of a regular finite element mesh", 1973: vertices that part a mesh in two are eliminated
+after both parts, and so on within each part. Here the parts are those of a k-d tree over the positions (median cuts
+across the longer extent), and all its separators come out at once. With the cells of the tree numbered so that each
+bit tells a side of a cut, an edge is cut where the numbers of its ends first differ, so a vertex separates its cell as
+soon as some neighbour has a number that differs there and is larger.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["nested_dissection"]
+
+Index = NDArray[np.int32]
+Cells = NDArray[np.int64]
+
+LEAF = 16  # vertices of a cell that is not cut any further
+SAMPLES = 32  # vertices of a cell, about, from which its median is taken
+RESOLUTION = 30  # bits of a coordinate
+MOST_LEVELS = 30  # so that numbers of cells fit into 32 bits
+WORST = 30.0  # work of the elimination, over that of cells of n vertices being cut by sqrt(n)
+
+
+def nested_dissection(points: NDArray[np.float64], indices: Index, indptr: NDArray[np.integer]) -> Index | None:
+    """An order in which to eliminate the vertices of a mesh.
+
+    Parameters
+    ----------
+    points : (n, d) float64
+        Positions of the vertices, finite.
+    indices, indptr
+        Pattern of the lower triangle of the mesh's matrix in CSC form, diagonal included.
+
+    Returns
+    -------
+    (n,) int32, the vertices in their order; None where the positions tell too little of the mesh to part it well.
+    """
+    n = len(points)
+    levels = min(max(int(n / LEAF).bit_length(), 0), MOST_LEVELS)
+    if levels == 0:
+        return np.arange(n, dtype=np.int32)
+    cell = _cells(points, levels)
+    highest = _highest_neighbour(cell, indices, indptr)
+    # Bits, counted from 1, at which a vertex separates; 0 for those inside a leaf.
+    level = np.frexp((cell ^ highest).astype(np.float64))[1].astype(np.int64)
+    # A separator comes after the last vertex of the cell that it parts, and after finer ones that end there too.
+    last = cell | ((np.int64(1) << level) - 1)
+    key = (last << 5) | level
+    order = np.argsort(key, kind="stable")
+    return order.astype(np.int32) if _work(key[order], n) < WORST else None
+
+
+def _cells(points: NDArray[np.float64], levels: int) -> Cells:
+    """Number of the cell of each point, one bit for each cut, the first cut the highest."""
+    n = len(points)
+    low = points.min(axis=0)
+    extent = float((points.max(axis=0) - low).max()) or 1.0
+    grid = ((points - low).T * ((2**RESOLUTION - 1) / extent)).astype(np.int32)
+    flat, here = grid.reshape(-1), np.arange(n)
+    cell = np.zeros(n, dtype=np.int64)
+    step = max(int(0.6180339887 * n), 1) | 1
+    for level in range(levels):
+        count = SAMPLES << level
+        chosen = here if count >= n else (np.arange(count) * step) % n  # spread evenly, in step with no grid
+        axis, median = _cuts(grid.take(chosen, axis=1), cell.take(chosen), 1 << level)
+        coordinate = flat.take((axis * n).take(cell) + here)
+        cell <<= 1
+        cell += coordinate > median.take(cell >> 1)
+    return cell
+
+
+def _cuts(grid: NDArray[np.int32], cell: Cells, cells: int) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+    """For each cell the axis of widest spread and the median along it."""
+    count = np.bincount(cell, minlength=cells)
+    share = 1.0 / np.maximum(count, 1)
+    spread = np.empty((len(grid), cells))
+    for axis, x in enumerate(grid.astype(np.float64)):
+        mean = share * np.bincount(cell, weights=x, minlength=cells)
+        x -= mean.take(cell)
+        spread[axis] = np.bincount(cell, weights=np.abs(x, out=x), minlength=cells)
+    widest = np.argmax(spread, axis=0)
+    key = grid.reshape(-1).take((widest * len(cell)).take(cell) + np.arange(len(cell)))
+    key = (cell << RESOLUTION) | key
+    key.sort()
+    middle = np.cumsum(count) - count + count // 2
+    median = key.take(middle, mode="clip") & ((1 << RESOLUTION) - 1)
+    return widest, np.where(count > 0, median, 0).astype(np.int32)
+
+
+def _highest_neighbour(cell: Cells, indices: Index, indptr: NDArray[np.integer]) -> Cells:
+    """The largest cell number among each vertex and its neighbours."""
+    highest = np.maximum.reduceat(cell.take(indices), indptr[:-1])
+    np.maximum.at(highest, indices, np.repeat(cell, np.diff(indptr)))
+    return highest
+
+
+def _work(key: NDArray[np.int64], n: int) -> float:
+    """Sum of the cubes of the separators' sizes, over n^(3/2)."""
+    start = np.flatnonzero(np.diff(key, prepend=-1))
+    size = np.diff(start, append=n).astype(np.float64)
+    return float((size**3).sum()) / n**1.5
