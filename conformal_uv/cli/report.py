@@ -14,7 +14,6 @@ from ..errors import MeshError
 from ..files import MeshFile, read_mesh, replaced_file
 from ..mesh import Surface
 from ..mesh.geometry import triangle_geometry
-from ..mesh.manifold import degenerate_faces
 from ..mesh.triangulate import triangulate
 from ..operators.distortion import distortion_of
 from ..operators.laplacian import cotangent_weights
@@ -87,7 +86,7 @@ def _uv_summary(mesh_file: MeshFile, corner_of: NDArray[np.int64]) -> dict[str, 
     positions = positions / max(np.abs(positions).max(), np.finfo(np.float64).tiny)
     geometry = triangle_geometry(positions, corners)
     good = np.ones(corners.shape[1], dtype=bool)
-    good[degenerate_faces(geometry)] = False
+    good[geometry.degenerate] = False
     if not good.any():
         return None
     corners = np.ascontiguousarray(corners[:, good])

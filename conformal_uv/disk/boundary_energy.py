@@ -52,10 +52,22 @@ class BoundaryEnergy:
 
     def hessian_product(self, direction: Real) -> Real:
         """Hessian times a direction (nb,), by one harmonic extension."""
-        tangent = 1j * self.z
-        change = tangent * direction
-        flux = self.problem.flux(change, self.problem.interior_values(change))
-        product = np.real(np.conj(tangent) * flux)
+        change = 1j * self.z * direction
+        return self._product(direction, self.problem.flux(change, self.problem.interior_values(change)))
+
+    def moebius_products(self) -> tuple[tuple[Real, Real], tuple[Real, Real]]:
+        """The two Moebius directions that move the centre, -2 sin theta and 2 cos theta, and the Hessian times each.
+
+        They move z by ``1 - z^2`` and ``i (1 + z^2)``. Constants have no flux, so the extension of z^2 serves both.
+        """
+        square = self.z * self.z
+        flux = self.problem.flux(square, self.problem.interior_values(square))
+        moves = -2.0 * np.sin(self.theta), 2.0 * np.cos(self.theta)
+        return moves, (self._product(moves[0], -flux), self._product(moves[1], 1j * flux))
+
+    def _product(self, direction: Real, flux: NDArray[np.complex128]) -> Real:
+        """Hessian times a direction whose change of z has this flux."""
+        product = np.imag(np.conj(self.z) * flux)
         product -= self._radial * direction
         if self.minus_area:
             before = np.roll(self._sine, 1)

@@ -54,7 +54,7 @@ def release_centre(
         found.energy.theta,
         TurnGauge(measure.vertex_measure, found.energy.theta),
         minus_area=True,
-        tolerance=options.tolerance,
+        tolerance=max(options.tolerance, options.relative_tolerance * found.history[0].gradient_norm),
         max_iterations=options.max_iterations,
         progress=progress,
     )
@@ -78,9 +78,9 @@ def _predicted_shift(energy: BoundaryEnergy) -> tuple[float, float]:
 
     A map of the disk that moves 0 to a turns the angles by ``2 Im(a exp(-i theta))`` to first order.
     """
-    moves = np.column_stack((-2.0 * np.sin(energy.theta), 2.0 * np.cos(energy.theta)))
+    moves, products = (np.column_stack(pair) for pair in energy.moebius_products())
     slope = moves.T @ energy.gradient
-    curvature = moves.T @ np.column_stack([energy.hessian_product(move) for move in moves.T])
+    curvature = moves.T @ products
     if np.linalg.eigvalsh(curvature)[0] <= 0.0:
         return np.inf, 0.0
     step = np.linalg.solve(curvature, slope)

@@ -24,6 +24,7 @@ def disk_map(
     center: int | None = None,
     boundary_vertex: int | None = None,
     tolerance: float = 1e-10,
+    relative_tolerance: float = 0.0,
     max_iterations: int = 50,
     laplacian: str = "auto",
     repair: str = "auto",
@@ -57,6 +58,8 @@ def disk_map(
         Boundary vertex to be sent to 1; by default the first of the boundary loop.
     tolerance : float
         Newton's method ends at this norm of the projected gradient of the energy in the angles (radians).
+    relative_tolerance : float
+        Or, where that comes first, at this part of the norm that it starts from, that of the linear map.
     max_iterations : int
         Most iterations of "newton" and "augmented-lagrangian"; a result that stopped there has
         ``converged == False`` and a warning is logged.
@@ -96,6 +99,7 @@ def disk_map(
         center=center,
         boundary_vertex=boundary_vertex,
         tolerance=tolerance,
+        relative_tolerance=relative_tolerance,
         max_iterations=max_iterations,
         repair=repair,
         callback=callback,

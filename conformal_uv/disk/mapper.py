@@ -17,7 +17,7 @@ from ..progress import Callback, Progress
 from .harmonic_measure import CentredMeasure, centred_measure
 from .options import DiskOptions
 from .placement import place_center, place_pins
-from .repair import recentred, repaired
+from .repair import flipped_faces, recentred, repair_cost, repaired
 from .result import DiskMap, disk_map_result
 from .solution import Solution, solve_augmented_lagrangian, solve_linear, solve_newton
 
@@ -70,6 +70,7 @@ class DiskMapper:
         center: int | None = None,
         boundary_vertex: int | None = None,
         tolerance: float = 1e-10,
+        relative_tolerance: float = 0.0,
         max_iterations: int = 50,
         repair: str = "auto",
         callback: Callback | None = None,
@@ -88,6 +89,7 @@ class DiskMapper:
             center=center,
             boundary_vertex=boundary_vertex,
             tolerance=tolerance,
+            relative_tolerance=relative_tolerance,
             max_iterations=max_iterations,
             repair=repair,
         )
@@ -100,12 +102,19 @@ class DiskMapper:
         progress("placement", 0.0)
         z, center = self._placed(solution, options)
         z = _inside(z)
-        folded, exhausted = z, False
-        if options.repair == "auto" and options.method != "augmented-lagrangian":
-            z, exhausted = repaired(self.surface, z, self.boundary, progress)
-            z = _inside(recentred(z, center, self.surface.corners)) if z is not folded else z
+        corners = self.surface.corners
+        flipped, exhausted, cost = flipped_faces(z, corners), False, None
+        if len(flipped) and options.repair == "auto" and options.method != "augmented-lagrangian":
+            folded, before = z, flipped
+            z, exhausted = repaired(self.surface, z, flipped, self.boundary, progress)
+            if z is not folded:
+                z = _inside(recentred(z, center, corners))
+                flipped = flipped_faces(z, corners)
+                cost = repair_cost(self.surface, folded, z, before, flipped)
             center = center if center is not None and z[center] == 0.0 else None
-        result = disk_map_result(self.surface, solution, options, z, folded, exhausted, center, self.backend)
+        result = disk_map_result(
+            self.surface, solution, options, z, flipped, exhausted, cost, center, self.backend
+        )
         progress("placement", 1.0)
         return result
 

@@ -65,13 +65,14 @@ def minimise_boundary_energy(
     tolerance: float,
     max_iterations: int,
     progress: Progress,
+    relative_tolerance: float = 0.0,
 ) -> NewtonResult:
     """Minimise the energy over the boundary angles under the gauge.
 
     The energy never rises and the order of the boundary is never broken: neighbours that want to change places are
     linked, and move together from then on unless the energy would fall by parting them. The iteration ends when the
-    norm of the gradient, projected onto what gauge and links leave free, is at most `tolerance` or the rounding of its
-    terms, when no step lowers the energy any more, or after `max_iterations`.
+    norm of the gradient, projected onto what gauge and links leave free, is at most `tolerance`, `relative_tolerance`
+    times what it was at first, or the rounding of its terms, when no step lowers the energy any more, or after `max_iterations`.
 
     Parameters
     ----------
@@ -94,7 +95,9 @@ def minimise_boundary_energy(
                 links, kept = links & ~parting, kept | parting
                 tangent = Tangent(gauge, energy.theta, links)
                 norm = float(np.linalg.norm(tangent.project(energy.gradient)))
-        first = first or norm
+        if first is None:
+            first = norm
+            tolerance = max(tolerance, relative_tolerance * first)
         progress("newton", _fraction(norm, first, tolerance))
         if norm <= tolerance or iteration == max_iterations:
             break

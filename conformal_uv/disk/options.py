@@ -38,6 +38,7 @@ class DiskOptions:
     center: int | None
     boundary_vertex: int | None
     tolerance: float
+    relative_tolerance: float
     max_iterations: int
     repair: str
 
@@ -49,7 +50,8 @@ class DiskOptions:
     @property
     def solution_key(self) -> tuple[object, ...]:
         """What the solution depends on before it is placed."""
-        return self.method, self.objective, self.tolerance, self.max_iterations, self.constrained_pins
+        limits = self.tolerance, self.relative_tolerance, self.max_iterations
+        return self.method, self.objective, *limits, self.constrained_pins
 
     @classmethod
     def checked(
@@ -64,6 +66,7 @@ class DiskOptions:
         center: int | None,
         boundary_vertex: int | None,
         tolerance: float,
+        relative_tolerance: float,
         max_iterations: int,
         repair: str,
     ) -> DiskOptions:
@@ -86,7 +89,7 @@ class DiskOptions:
             raise OptionError('The augmented Lagrangian takes its pins as constraints; leave pin_mode out.')
         if method == "linear" and pin_mode == "constraint":
             raise OptionError('The linear method does not optimise; it takes pins only with pin_mode="moebius".')
-        tolerance, max_iterations = _limits(tolerance, max_iterations)
+        tolerance, relative_tolerance, max_iterations = _limits(tolerance, relative_tolerance, max_iterations)
         pinned = _pins(pins, loop, surface.n, default=report or pin_mode == "constraint")
         if pinned is not None and (center is not None or boundary_vertex is not None):
             raise OptionError("Three pins already fix the map; leave out center and boundary_vertex.")
@@ -106,6 +109,7 @@ class DiskOptions:
             center,
             boundary_vertex,
             tolerance,
+            relative_tolerance,
             max_iterations,
             repair,
         )
@@ -121,14 +125,19 @@ def _vertex(name: str, value: int, n: int) -> int:
     return vertex
 
 
-def _limits(tolerance: float, max_iterations: int) -> tuple[float, int]:
+def _limits(tolerance: float, relative_tolerance: float, max_iterations: int) -> tuple[float, float, int]:
     try:
-        norm, most = float(tolerance), index(max_iterations)
+        norm, part, most = float(tolerance), float(relative_tolerance), index(max_iterations)
     except (TypeError, ValueError) as error:
-        raise OptionError(f"tolerance is {tolerance!r}, max_iterations {max_iterations!r}; pass numbers.") from error
+        raise OptionError(
+            f"tolerance is {tolerance!r}, relative_tolerance {relative_tolerance!r}, max_iterations "
+            f"{max_iterations!r}; pass numbers."
+        ) from error
     if not 0.0 < norm < np.inf or most < 0:
         raise OptionError(f"tolerance must be positive and max_iterations not negative; got {norm} and {most}.")
-    return norm, most
+    if not 0.0 <= part < 1.0:
+        raise OptionError(f"relative_tolerance must be at least 0 and less than 1; got {part}.")
+    return norm, part, most
 
 
 def _pins(

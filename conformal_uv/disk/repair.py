@@ -17,12 +17,13 @@ from scipy.sparse.linalg import splu
 
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
+from ..operators.distortion import distortion_of
 from ..operators.mean_value import positive_mean_value_matrix
 from ..operators.moebius import Moebius
 from ..operators.orientation_sign import orientation_signs
 from ..progress import Progress
 
-__all__ = ["Repair", "flipped_faces", "recentred", "repaired", "unresolved_faces"]
+__all__ = ["Repair", "flipped_faces", "recentred", "repair_cost", "repaired", "unresolved_faces"]
 
 Complex = NDArray[np.complex128]
 
@@ -51,6 +52,20 @@ class Repair:
     angle_mean_after: float
 
 
+def repair_cost(
+    surface: Surface, before: Complex, after: Complex, flipped_before: NDArray[np.int64], flipped_after: NDArray[np.int64]
+) -> Repair:
+    """What the repair of positions `before` to `after` did."""
+    angles = [distortion_of(surface.geometry, surface.corners, _points(z)).angle_mean for z in (before, after)]
+    return Repair(
+        flipped_before=len(flipped_before),
+        flipped_after=len(flipped_after),
+        moved_vertices=int(np.count_nonzero(after != before)),
+        angle_mean_before=angles[0],
+        angle_mean_after=angles[1],
+    )
+
+
 def flipped_faces(z: Complex, corners: NDArray[np.int32]) -> NDArray[np.int64]:
     """Faces with non-positive area, decided exactly."""
     return np.flatnonzero(orientation_signs(_points(z), corners) <= 0)
@@ -64,7 +79,7 @@ def unresolved_faces(z: Complex, corners: NDArray[np.int32], faces: NDArray[np.i
 
 
 def repaired(
-    surface: Surface, z: Complex, boundary: NDArray[np.int64], progress: Progress
+    surface: Surface, z: Complex, flipped: NDArray[np.int64], boundary: NDArray[np.int64], progress: Progress
 ) -> tuple[Complex, bool]:
     """Positions without folds; z itself where it has none.
 
@@ -72,6 +87,8 @@ def repaired(
     ----------
     z : (n,) complex128
         Positions in the unit disk, the boundary on the circle in order.
+    flipped : (k,) int64
+        The faces folded there.
 
     Returns
     -------
@@ -80,7 +97,6 @@ def repaired(
         Folds are left that positive weights everywhere did not undo: doubles can not hold the map unfolded.
     """
     corners, n = surface.corners, surface.n
-    flipped = flipped_faces(z, corners)
     crowded = unresolved_faces(z, corners, flipped)
     if len(crowded) < MOST_TRIED:
         crowded = crowded[:0]  # few enough to try them too; crowding proper comes in great numbers

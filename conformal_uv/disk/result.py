@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..operators.distortion import Distortion, distortion_of
 from ..operators.orientation_sign import orientation_signs
-from ..operators.wirtinger import conformal_energy, planar_sides, signed_double_areas
+from ..operators.wirtinger import conformal_energy, enclosed_area
 from .augmented_lagrangian import AugmentedLagrangianStep
 from .newton import NewtonStep
 from .options import DiskOptions
-from .repair import Repair, flipped_faces, unresolved_faces
+from .repair import Repair, unresolved_faces
 from .solution import Solution
 
 __all__ = ["DiskMap", "disk_map_result"]
@@ -104,24 +104,23 @@ def disk_map_result(
     solution: Solution,
     options: DiskOptions,
     z: Complex,
-    folded: Complex,
+    flipped: NDArray[np.int64],
     exhausted: bool,
+    repair: Repair | None,
     center: int | None,
     backend: str,
 ) -> DiskMap:
     """Measure positions z (n,).
 
-    `folded` are those before the repair, z itself where nothing was done; `exhausted` as `repaired` returns it.
+    `flipped` are the faces folded there; `exhausted` as `repaired` returns it.
     """
     uv = z.copy().view(np.float64).reshape(-1, 2)
-    flipped = flipped_faces(z, surface.corners)
-    sides = planar_sides(z, surface.corners)
-    area = 0.5 * float(signed_double_areas(sides).sum())
+    area = enclosed_area(z[surface.loops[0]])
     if len(surface.degenerate) and solution.problem is not None:
         dirichlet = solution.problem.laplacian.energy(z)
         conformal = dirichlet - area
     else:
-        conformal = conformal_energy(surface.geometry, sides)
+        conformal = conformal_energy(surface.geometry, z, surface.corners)
         dirichlet = conformal + area
     return DiskMap(
         uv=uv,
@@ -132,7 +131,7 @@ def disk_map_result(
         lost_to_double=flipped if exhausted else unresolved_faces(z, surface.corners, flipped),
         converged=solution.converged,
         history=solution.history,
-        repair=None if folded is z else _cost(surface, z, folded, flipped),
+        repair=repair,
         method=options.method,
         objective=options.objective,
         laplacian="cotan" if solution.problem is None else solution.problem.laplacian.kind,
@@ -142,16 +141,3 @@ def disk_map_result(
         surface=surface,
     )
 
-
-def _cost(surface: Surface, z: Complex, folded: Complex, flipped: NDArray[np.int64]) -> Repair:
-    before, after = (
-        distortion_of(surface.geometry, surface.corners, w.copy().view(np.float64).reshape(-1, 2)).angle_mean
-        for w in (folded, z)
-    )
-    return Repair(
-        flipped_before=len(flipped_faces(folded, surface.corners)),
-        flipped_after=len(flipped),
-        moved_vertices=int(np.count_nonzero(z != folded)),
-        angle_mean_before=before,
-        angle_mean_after=after,
-    )

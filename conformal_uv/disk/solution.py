@@ -63,6 +63,7 @@ def solve_newton(
         gauge,
         minus_area=options.objective == "conformal",
         tolerance=options.tolerance,
+        relative_tolerance=options.relative_tolerance,
         max_iterations=options.max_iterations,
         progress=progress,
     )

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .blocks import blocks
+
 __all__ = ["TriangleGeometry", "triangle_geometry"]
+
+Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,33 +27,61 @@ class TriangleGeometry:
         Twice the area, not negative.
     """
 
-    dot: NDArray[np.float64]
-    double_area: NDArray[np.float64]
+    dot: Real
+    double_area: Real
+
+    def part(self, faces: slice) -> TriangleGeometry:
+        """That of a range of the faces."""
+        return TriangleGeometry(self.dot[:, faces], self.double_area[faces])
 
     @property
-    def squared_lengths(self) -> NDArray[np.float64]:
+    def squared_lengths(self) -> Real:
         """Squared length of half-edge c (corner c to c + 1), (3, m): dot_c + dot_(c+1)."""
-        return self.dot + self.dot[[1, 2, 0]]
+        return np.stack([self.dot[c] + self.dot[c - 2] for c in range(3)])
+
+    @cached_property
+    def degenerate(self) -> NDArray[np.int64]:
+        """Faces whose area is lost to rounding: twice the area at most 8 eps times the longest edge squared, (k,).
+
+        The cross product of two edges is wrong by a few eps times the product of their lengths, so below that the
+        sign and size of the cotangents carry no information.
+        """
+        a, b, c = self.dot
+        longest = a + b
+        np.maximum(longest, b + c, out=longest)
+        np.maximum(longest, c + a, out=longest)
+        longest *= 8.0 * np.finfo(np.float64).eps
+        return np.flatnonzero(self.double_area <= longest)
 
 
 def triangle_geometry(V: NDArray[np.float64], corners: NDArray[np.int32]) -> TriangleGeometry:
     """Geometry of the triangles ``corners`` (3, m) at positions V (n, 3) or (n, 2)."""
     m = corners.shape[1]
-    dot = np.zeros((3, m))
-    sides: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
-    for axis in range(V.shape[1]):
-        x = np.ascontiguousarray(V[:, axis])
-        a, b, c = x[corners[0]], x[corners[1]], x[corners[2]]
-        ab, bc, ca = b - a, c - b, a - c
-        dot[0] -= ab * ca
-        dot[1] -= ab * bc
-        dot[2] -= bc * ca
-        sides.append((ab, bc))
+    dot, double_area = np.empty((3, m)), np.empty(m)
+    columns = np.ascontiguousarray(V.T)
+    for part in blocks(m):
+        here = corners[:, part].astype(np.intp)
+        sides = []
+        total = np.zeros((3, here.shape[1]))
+        for column in columns:
+            a, b, c = column.take(here)
+            ab, bc, ca = b - a, c - b, a - c
+            total[0] -= ab * ca
+            total[1] -= ab * bc
+            total[2] -= bc * ca
+            sides.append((ab, bc))
+        dot[:, part] = total
+        double_area[part] = _cross_length(sides)
+    return TriangleGeometry(dot, double_area)
+
+
+def _cross_length(sides: list[tuple[Real, Real]]) -> Real:
+    """Length of the cross product of two edges, given axis by axis."""
     if len(sides) == 2:
         (ux, vx), (uy, vy) = sides
-        return TriangleGeometry(dot, np.abs(ux * vy - uy * vx))
+        return np.abs(ux * vy - uy * vx)
     (ux, vx), (uy, vy), (uz, vz) = sides
     square = (uy * vz - uz * vy) ** 2
     square += (uz * vx - ux * vz) ** 2
     square += (ux * vy - uy * vx) ** 2
-    return TriangleGeometry(dot, np.sqrt(square, out=square))
+    return np.sqrt(square, out=square)

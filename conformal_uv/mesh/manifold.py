@@ -17,7 +17,6 @@ __all__ = [
     "check_edges",
     "check_fans",
     "check_orientation",
-    "degenerate_faces",
     "face_components",
     "is_face_connected",
     "split_vertices",
@@ -134,19 +133,9 @@ def face_components(corners: NDArray[np.int32], n: int) -> tuple[int, NDArray[np
     return int(piece.max()) + 1, piece.astype(np.int32)
 
 
-def degenerate_faces(geometry: TriangleGeometry) -> NDArray[np.int64]:
-    """Faces whose area is lost to rounding: twice the area at most 8 eps times the longest edge squared.
-
-    The cross product of two edges is wrong by a few eps times the product of their lengths, so below that the
-    sign and size of the cotangents carry no information.
-    """
-    longest = geometry.squared_lengths.max(axis=0)
-    return np.flatnonzero(geometry.double_area <= 8 * np.finfo(np.float64).eps * longest)
-
-
 def check_areas(geometry: TriangleGeometry) -> None:
     """Raise DegenerateFaceError where a face has no area."""
-    bad = degenerate_faces(geometry)
+    bad = geometry.degenerate
     if len(bad):
         raise DegenerateFaceError(
             f"{len(bad)} faces have no area: faces {listed(bad)}. "

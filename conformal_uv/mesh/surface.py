@@ -16,7 +16,6 @@ from .manifold import (
     check_edges,
     check_fans,
     check_orientation,
-    degenerate_faces,
     face_components,
     is_face_connected,
 )
@@ -40,8 +39,6 @@ class Surface:
     loops : list of (k,) int64
         Boundary loops in the direction of the faces; the first starts at the first boundary half-edge met when
         faces are read in order.
-    degenerate : (k,) int64
-        Faces whose area is lost to rounding.
     pieces : int
         Number of connected components.
     unit : float
@@ -53,7 +50,6 @@ class Surface:
     edges: HalfEdges
     geometry: TriangleGeometry
     loops: list[NDArray[np.int64]]
-    degenerate: NDArray[np.int64]
     pieces: int
     unit: float
 
@@ -89,8 +85,12 @@ class Surface:
             check_fans(corners, edges, n)
             pieces, _ = face_components(corners, n)
         vertices, unit = scaled(vertices)
-        geometry = triangle_geometry(vertices, corners)
-        return cls(vertices, corners, edges, geometry, loops, degenerate_faces(geometry), pieces, unit)
+        return cls(vertices, corners, edges, triangle_geometry(vertices, corners), loops, pieces, unit)
+
+    @property
+    def degenerate(self) -> NDArray[np.int64]:
+        """Faces whose area is lost to rounding."""
+        return self.geometry.degenerate
 
     @property
     def n(self) -> int:

@@ -10,10 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import MeshError, NonFiniteError, listed
 from ..mesh.arrays import face_array, vertex_array
+from ..mesh.blocks import blocks
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
-from .wirtinger import planar_sides, signed_double_areas, unfolded_sides, wirtinger
+from .wirtinger import Sides, planar_sides, signed_double_areas, unfolded_sides, wirtinger
 
 __all__ = ["Distortion", "distortion", "distortion_of"]
+
+Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,26 +96,38 @@ def distortion_of(
     geometry: TriangleGeometry, corners: NDArray[np.int32], image: NDArray[np.float64], unit: float = 1.0
 ) -> Distortion:
     """The same for geometry at hand, its unit of length being `unit`, and positions already checked."""
-    shape = triangle_geometry(image, corners)
+    m = corners.shape[1]
+    angle, quasi_conformal, area_scale, signed = np.empty((m, 3)), np.empty(m), np.empty(m), np.empty(m)
+    for part in blocks(m):
+        here, there = geometry.part(part), triangle_geometry(image, corners[:, part])
+        sides, signed[part] = _image_sides(image, corners[:, part], there)
+        has_area = here.double_area > 0
+        fz, fzbar = wirtinger(unfolded_sides(here), sides, np.where(has_area, here.double_area, 1.0))
+        plus, minus = np.abs(fz), np.abs(fzbar)
+        small = np.abs(plus - minus)
+        angle[part] = _angle_between(here, there).T
+        quasi_conformal[part] = _ratio(plus + minus, small, has_area & (small > 0))
+        area_scale[part] = _ratio(there.double_area, here.double_area, has_area, unit)
+    return Distortion(np.degrees(angle, out=angle), quasi_conformal, area_scale, np.flatnonzero(signed <= 0))
+
+
+def _image_sides(image: Real, corners: NDArray[np.int32], shape: TriangleGeometry) -> tuple[Sides, Real]:
+    """Two edges of each face's image, laid into a plane, and twice its signed area."""
     if image.shape[1] == 2:
         sides = planar_sides(np.ascontiguousarray(image).view(np.complex128).reshape(-1), corners)
-        signed = signed_double_areas(sides)
-    else:
-        first, second = unfolded_sides(shape)
-        signed = np.sign(_outward(image, corners)) * shape.double_area
-        sides = first, np.where(signed < 0, second.conj(), second)
-    has_area = geometry.double_area > 0
-    fz, fzbar = wirtinger(unfolded_sides(geometry), sides, np.where(has_area, geometry.double_area, 1.0))
-    plus, minus = np.abs(fz), np.abs(fzbar)
-    small = np.abs(plus - minus)
-    angle = np.arctan2(geometry.double_area, geometry.dot)
-    angle -= np.arctan2(shape.double_area, shape.dot)
-    return Distortion(
-        angle_error=np.degrees(np.abs(angle, out=angle), out=angle).T,
-        quasi_conformal=_ratio(plus + minus, small, has_area & (small > 0)),
-        area_scale=_ratio(shape.double_area, geometry.double_area, has_area, unit),
-        flipped=np.flatnonzero(signed <= 0),
-    )
+        return sides, signed_double_areas(sides)
+    first, second = unfolded_sides(shape)
+    signed = np.sign(_outward(image, corners)) * shape.double_area
+    return (first, np.where(signed < 0, second.conj(), second)), signed
+
+
+def _angle_between(one: TriangleGeometry, other: TriangleGeometry) -> Real:
+    """Size of the difference of the angles at each corner, (3, m) radians, without taking either angle itself.
+
+    A corner with an edge of no length has angle 0.
+    """
+    (x, y), (u, v) = ((np.where(t.double_area + np.abs(t.dot) > 0, t.dot, 1.0), t.double_area) for t in (one, other))
+    return np.abs(np.arctan2(y * u - x * v, x * u + y * v))
 
 
 def _ratio(

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from ..errors import OptionError
 from ..mesh.geometry import TriangleGeometry
-from ..mesh.halfedges import HalfEdges, half_edges
-from ..mesh.manifold import check_areas, degenerate_faces
-from .intrinsic_delaunay import intrinsic_delaunay
+from ..mesh.halfedges import HalfEdges, sorted_pairs
+from ..mesh.manifold import check_areas
+from .intrinsic_delaunay import IntrinsicTriangulation, intrinsic_delaunay
 from .laplacian import cotangent_weights
 from .mollification import mollified
 
@@ -69,11 +69,14 @@ def edge_laplacian(
     if kind == "cotan":
         check_areas(geometry)
         return cotan_edges(edges, geometry)
-    if kind == "auto" and not len(degenerate_faces(geometry)):
-        plain = cotan_edges(edges, geometry)
-        if not (plain.weights[edges.count == 2] < -ROUNDING).any():
-            return plain
-    return intrinsic_delaunay_edges(corners, edges.twin, geometry, n)
+    if len(geometry.degenerate):
+        return intrinsic_delaunay_edges(corners, edges.twin, geometry, n)
+    plain = cotan_edges(edges, geometry)
+    negative = plain.weights < 0.0
+    negative &= edges.count == 2
+    if kind == "auto" and not (plain.weights[negative] < -ROUNDING).any():
+        return plain
+    return intrinsic_delaunay_edges(corners, edges.twin, geometry, n, suspects=np.flatnonzero(negative[edges.edge]))
 
 
 def cotan_edges(edges: HalfEdges, geometry: TriangleGeometry) -> EdgeLaplacian:
@@ -87,16 +90,53 @@ def uniform_edges(edges: HalfEdges) -> EdgeLaplacian:
 
 
 def intrinsic_delaunay_edges(
-    corners: NDArray[np.int32], twin: NDArray[np.int32], geometry: TriangleGeometry, n: int
+    corners: NDArray[np.int32],
+    twin: NDArray[np.int32],
+    geometry: TriangleGeometry,
+    n: int,
+    *,
+    suspects: NDArray[np.int64] | None = None,
 ) -> EdgeLaplacian:
-    """Cotangent weights of the intrinsic Delaunay triangulation: non-negative inside."""
-    lengths = mollified(np.sqrt(np.maximum(geometry.squared_lengths, 0.0)))
-    delaunay = intrinsic_delaunay(corners, lengths, twin)
-    half = 0.5 * delaunay.cotangents[[2, 0, 1]].reshape(-1)
-    inner = np.flatnonzero(delaunay.twin >= 0)
-    pair = half[inner] + half[delaunay.twin[inner]]
-    half[inner[pair < 0.0]] = 0.0  # Delaunay to rounding: the four vertices lie on a circle
-    joined = half_edges(delaunay.corners, n)
-    weights = np.bincount(joined.edge, weights=half, minlength=len(joined.lo))
-    proper = joined.lo != joined.hi  # an edge from a vertex to itself carries nothing
-    return EdgeLaplacian(joined.lo[proper], joined.hi[proper], weights[proper], "intrinsic-delaunay")
+    """Cotangent weights of the intrinsic Delaunay triangulation: non-negative inside.
+
+    Parameters
+    ----------
+    suspects : (k,) int64, optional
+        Half-edges that may be not Delaunay as the triangles are; by default all inner ones.
+    """
+    lengths = geometry.squared_lengths
+    np.sqrt(np.maximum(lengths, 0.0, out=lengths), out=lengths)
+    safe = mollified(lengths)
+    if safe is not lengths:
+        delaunay = intrinsic_delaunay(corners, safe, twin)
+    else:
+        if suspects is not None:
+            suspects = suspects[suspects < twin[suspects]]
+        delaunay = intrinsic_delaunay(corners, lengths, twin, geometry=geometry, suspects=suspects)
+    return _edges_of(delaunay, n)
+
+
+def _edges_of(delaunay: IntrinsicTriangulation, n: int) -> EdgeLaplacian:
+    """Half the sum of the cotangents opposite to each edge, edges between the same two vertices taken together."""
+    corners, twin = delaunay.corners, delaunay.twin
+    one = np.flatnonzero((twin < 0) | (np.arange(len(twin), dtype=np.int32) < twin))
+    tail, head = corners.reshape(-1).take(one), corners[[1, 2, 0]].reshape(-1).take(one)
+    proper = tail != head  # an edge from a vertex to itself carries nothing
+    if not proper.all():
+        one, tail, head = one[proper], tail[proper], head[proper]
+    opposite = delaunay.cotangents[[2, 0, 1]].reshape(-1)  # the corner opposite to half-edge c is c + 2
+    other = twin.take(one)
+    inner = other >= 0
+    weights = opposite.take(one)
+    weights += np.where(inner, opposite.take(other), 0.0)  # -1, on the boundary, takes the last, for nothing
+    weights *= 0.5
+    weights[inner & (weights < 0.0)] = 0.0  # Delaunay to rounding: the four vertices lie on a circle
+    lo, hi = np.minimum(tail, head), np.maximum(tail, head)
+    order = sorted_pairs(lo, hi, n)
+    lo, hi, weights = lo.take(order), hi.take(order), weights.take(order)
+    again = np.flatnonzero((lo[1:] == lo[:-1]) & (hi[1:] == hi[:-1])) + 1
+    if len(again):
+        first = np.delete(np.arange(len(lo)), again)
+        lo, hi, weights = lo[first], hi[first], np.add.reduceat(weights, first)
+    return EdgeLaplacian(lo, hi, weights, "intrinsic-delaunay")
+

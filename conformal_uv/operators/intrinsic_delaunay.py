@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolverError
+from ..mesh.geometry import TriangleGeometry
 from .laplacian import intrinsic_geometry
 
 __all__ = ["IntrinsicTriangulation", "intrinsic_delaunay"]
@@ -35,6 +36,8 @@ class IntrinsicTriangulation:
         Of half-edge c, from corner c to corner c + 1.
     twin : (3 m,) int32
         As in HalfEdges.
+    cotangents : (3, m) float64
+        Of every corner's angle.
     flips : int
         Edges flipped to get here.
     """
@@ -42,15 +45,18 @@ class IntrinsicTriangulation:
     corners: Index
     lengths: Real
     twin: Index
+    cotangents: Real
     flips: int
 
-    @property
-    def cotangents(self) -> Real:
-        """Cotangent of every corner's angle, (3, m)."""
-        return _areas_and_cotangents(self.lengths)[1]
 
-
-def intrinsic_delaunay(corners: Index, lengths: Real, twin: Index) -> IntrinsicTriangulation:
+def intrinsic_delaunay(
+    corners: Index,
+    lengths: Real,
+    twin: Index,
+    *,
+    geometry: TriangleGeometry | None = None,
+    suspects: NDArray[np.integer] | None = None,
+) -> IntrinsicTriangulation:
     """Flip edges until all are Delaunay (to rounding); boundary edges stay.
 
     Parameters
@@ -59,19 +65,29 @@ def intrinsic_delaunay(corners: Index, lengths: Real, twin: Index) -> IntrinsicT
     lengths : (3, m) float64
         Half-edge lengths that satisfy the triangle inequality strictly.
     twin : (3 m,) int32
+    geometry : TriangleGeometry, optional
+        Of triangles with these lengths, all with area, where it is at hand.
+    suspects : (k,) integers, optional
+        Half-edges, one for each edge that may be not Delaunay; by default all inner edges.
 
     Raises
     ------
     SolverError
         The flips do not end; rounding has the better of them.
     """
-    work = _Flipper(corners.copy(), lengths.copy(), twin.copy())
-    candidates = np.flatnonzero(twin >= 0).astype(np.int32)
-    candidates = candidates[candidates < twin[candidates]]
+    if geometry is None:
+        area2, cot = _areas_and_cotangents(lengths)
+    else:
+        area2, cot = geometry.double_area.copy(), geometry.dot / geometry.double_area
+    work = _Flipper(corners.copy(), lengths.copy(), twin.copy(), area2, cot)
+    if suspects is None:
+        suspects = np.flatnonzero(twin >= 0)
+        suspects = suspects[suspects < twin[suspects]]
+    candidates = suspects.astype(np.int32)
     for _ in range(MOST_ROUNDS):
         bad, sums = work.not_delaunay(candidates)
         if not len(bad):
-            return IntrinsicTriangulation(work.corners, work.lengths, work.twin, work.flips)
+            return IntrinsicTriangulation(work.corners, work.lengths, work.twin, work.cot, work.flips)
         chosen = work.independent(bad, sums)
         candidates = work.flip(bad[chosen], bad[~chosen])
     raise SolverError(
@@ -83,11 +99,11 @@ def intrinsic_delaunay(corners: Index, lengths: Real, twin: Index) -> IntrinsicT
 class _Flipper:
     """The triangulation in work. Half-edge c m + f is that of corner c of face f."""
 
-    def __init__(self, corners: Index, lengths: Real, twin: Index) -> None:
-        self.corners, self.lengths, self.twin = corners, lengths, twin
+    def __init__(self, corners: Index, lengths: Real, twin: Index, area2: Real, cot: Real) -> None:
+        self.corners, self.lengths, self.twin, self.cot = corners, lengths, twin, cot
         self.m = corners.shape[1]
         self.flips = 0
-        self._area2, self._cot = _areas_and_cotangents(lengths)
+        self._area2 = area2
         self._moved = np.full(3 * self.m, -1, dtype=np.int32)
         self._rank = np.empty(self.m, dtype=np.int64)
 
@@ -97,7 +113,7 @@ class _Flipper:
 
     def not_delaunay(self, h: Index) -> tuple[Index, Real]:
         """Those of the half-edges whose edge can be flipped and has cot a + cot b < 0, and the sums."""
-        cot = self._cot.reshape(-1)
+        cot = self.cot.reshape(-1)
         t = self.twin[h]
         here, there = cot[self._across(h)], cot[self._across(t)]
         total = here + there
@@ -146,7 +162,7 @@ class _Flipper:
         self.twin[f + 2 * m], self.twin[g + 2 * m] = g + 2 * m, f + 2 * m
 
         touched = np.concatenate((f, g))
-        self._area2[touched], self._cot[:, touched] = _areas_and_cotangents(self.lengths[:, touched])
+        self._area2[touched], self.cot[:, touched] = _areas_and_cotangents(self.lengths[:, touched])
         self.flips += len(h)
         following = np.concatenate((waiting, new[inner]))
         following = np.sort(np.minimum(following, self.twin[following]))

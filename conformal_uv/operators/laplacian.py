@@ -99,8 +99,10 @@ def uniform_laplacian(F: ArrayLike, n: int | None = None) -> csr_array:
 
 def cotangent_weights(edges: HalfEdges, geometry: TriangleGeometry) -> NDArray[np.float64]:
     """Weight (cot a + cot b) / 2 of every edge, (e,)."""
-    half_cot = geometry.dot[[2, 0, 1]]  # the corner opposite to half-edge c is c + 2
-    half_cot /= 2.0 * geometry.double_area
+    doubled = 2.0 * geometry.double_area
+    half_cot = np.empty_like(geometry.dot)
+    for c in range(3):
+        np.divide(geometry.dot[c - 1], doubled, out=half_cot[c])  # the corner opposite to half-edge c is c + 2
     weights = np.bincount(edges.edge, weights=half_cot.reshape(-1), minlength=len(edges.lo))
     return weights.astype(np.float64, copy=False)
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DegenerateFaceError
+from ..mesh.blocks import blocks
 
 __all__ = ["mollified"]
 
@@ -26,8 +27,16 @@ def mollified(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
     DegenerateFaceError
         All lengths are 0.
     """
-    if not lengths.max(initial=0.0) > 0.0:
+    mean = float(lengths.mean()) if lengths.size else 0.0
+    if not mean > 0.0:
         raise DegenerateFaceError("All vertices lie in one point; there is no surface to map.")
-    room = ROOM * np.maximum(lengths.max(axis=0), lengths.mean())
-    lack = float((room + lengths - lengths[[1, 2, 0]] - lengths[[2, 0, 1]]).max(initial=0.0))
+    lack = max(_lack(lengths[:, part], mean) for part in blocks(lengths.shape[1]))
     return lengths + lack if lack > 0.0 else lengths
+
+
+def _lack(lengths: NDArray[np.float64], mean: float) -> float:
+    """What the worst of the triangles lacks of the room it is to have; not positive where all have it."""
+    a, b, c = lengths
+    longest = np.maximum(np.maximum(a, b), c)
+    spare = a + b + c - 2.0 * longest  # the two shorter edges less the longest
+    return float((ROOM * np.maximum(longest, mean) - spare).max())

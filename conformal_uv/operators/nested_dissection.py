@@ -56,9 +56,12 @@ def nested_dissection(points: NDArray[np.float64], indices: Index, indptr: NDArr
 def _cells(points: NDArray[np.float64], levels: int) -> Cells:
     """Number of the cell of each point, one bit for each cut, the first cut the highest."""
     n = len(points)
-    low = points.min(axis=0)
-    extent = float((points.max(axis=0) - low).max()) or 1.0
-    grid = ((points - low).T * ((2**RESOLUTION - 1) / extent)).astype(np.int32)
+    columns = np.ascontiguousarray(points.T)
+    low = columns.min(axis=1, keepdims=True)
+    extent = float((columns.max(axis=1, keepdims=True) - low).max()) or 1.0
+    columns -= low
+    columns *= (2**RESOLUTION - 1) / extent
+    grid = columns.astype(np.int32)
     flat, here = grid.reshape(-1), np.arange(n)
     cell = np.zeros(n, dtype=np.int64)
     step = max(int(0.6180339887 * n), 1) | 1

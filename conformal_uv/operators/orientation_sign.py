@@ -11,6 +11,8 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.blocks import blocks
+
 __all__ = ["orientation_signs"]
 
 EPS = 0.5 * np.finfo(np.float64).eps
@@ -31,14 +33,19 @@ def orientation_signs(uv: NDArray[np.float64], corners: NDArray[np.int32]) -> ND
     (m,) int8
     """
     x, y = np.ascontiguousarray(uv[:, 0]), np.ascontiguousarray(uv[:, 1])
-    a, b, c = corners
-    left = (x[a] - x[c]) * (y[b] - y[c])
-    right = (y[a] - y[c]) * (x[b] - x[c])
-    area = left - right
-    signs = np.sign(area).astype(np.int8)
-    unsure = np.flatnonzero(np.abs(area) <= ERROR_BOUND * (np.abs(left) + np.abs(right)))
-    if len(unsure):
-        signs[unsure] = _exact(uv, corners[:, unsure])
+    signs = np.empty(corners.shape[1], dtype=np.int8)
+    unsure = []
+    for part in blocks(len(signs)):
+        here = corners[:, part].astype(np.intp)
+        (ax, bx, cx), (ay, by, cy) = x.take(here), y.take(here)
+        left = (ax - cx) * (by - cy)
+        right = (ay - cy) * (bx - cx)
+        area = left - right
+        signs[part] = np.sign(area)
+        unsure.append(part.start + np.flatnonzero(np.abs(area) <= ERROR_BOUND * (np.abs(left) + np.abs(right))))
+    doubtful = np.concatenate(unsure) if unsure else np.empty(0, dtype=np.int64)
+    if len(doubtful):
+        signs[doubtful] = _exact(uv, corners[:, doubtful])
     return signs
 
 

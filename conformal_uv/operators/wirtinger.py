@@ -10,11 +10,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.blocks import blocks
 from ..mesh.geometry import TriangleGeometry
 
 __all__ = [
     "conformal_energy",
-    "dirichlet_energy",
+    "enclosed_area",
     "planar_sides",
     "signed_double_areas",
     "unfolded_sides",
@@ -55,17 +56,21 @@ def wirtinger(source: Sides, image: Sides, double_area: NDArray[np.float64]) -> 
     return -scale * (q2 * p1.conj() - q1 * p2.conj()), scale * (q2 * p1 - q1 * p2)
 
 
-def conformal_energy(geometry: TriangleGeometry, image: Sides) -> float:
+def conformal_energy(geometry: TriangleGeometry, z: Complex, corners: NDArray[np.int32]) -> float:
     """Dirichlet energy minus signed area of the image: ``sum_f 2 A |f_zbar|^2``, without cancellation.
 
     (Levy, Petitjean, Ray, Maillot 2002, section 2; Mullen, Tong, Alliez, Desbrun 2008, eq. 2.)
     """
-    p1, p2 = unfolded_sides(geometry)
-    q1, q2 = image
-    residual = q2 * p1 - q1 * p2
-    return float(((residual.real**2 + residual.imag**2) / (4.0 * geometry.double_area)).sum())
+    total = 0.0
+    for part in blocks(corners.shape[1]):
+        here = geometry.part(part)
+        p1, p2 = unfolded_sides(here)
+        q1, q2 = planar_sides(z, corners[:, part])
+        residual = q2 * p1 - q1 * p2
+        total += float(((residual.real**2 + residual.imag**2) / (4.0 * here.double_area)).sum())
+    return total
 
 
-def dirichlet_energy(geometry: TriangleGeometry, image: Sides) -> float:
-    """1/2 uv' L uv with the cotangent Laplacian, as conformal energy plus signed area of the image."""
-    return conformal_energy(geometry, image) + 0.5 * float(signed_double_areas(image).sum())
+def enclosed_area(z: Complex) -> float:
+    """Signed area inside a closed polygon (k,): that of all the faces it is the boundary of, in a map to the plane."""
+    return 0.5 * float(np.imag(np.vdot(z, np.roll(z, -1))))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk.repair import repaired
+from ..disk.repair import flipped_faces, repaired
 from ..mesh.surface import Surface
 from ..progress import Progress
 from .centring import turn_to_pole, unit
@@ -53,7 +53,8 @@ def _unfolded_about(
     z = to_plane(x @ turn.T)
     reach = float(np.abs(z[corners[:, base]]).max())
     disk = Surface.from_arrays(surface.V, np.delete(surface.F, base, axis=0))
-    flat, _ = repaired(disk, z / reach, disk.loops[0], progress)
+    z = z / reach
+    flat, _ = repaired(disk, z, flipped_faces(z, disk.corners), disk.loops[0], progress)
     return from_plane(flat * reach) @ turn
 
 
