@@ -1,0 +1,41 @@
+"""Blender: *Unwrap* of a mesh without seams, Conformal or Angle Based, its UVs read back (single precision)."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from .outcome import Arrays, Outcome, Stage
+
+
+def run(arrays: Arrays, stage: Stage, *, method: str) -> Outcome:
+    """An object of Blender's from the arrays, the operator in Edit Mode, and its coordinates read back."""
+    V, F = arrays["V"], arrays["F"]
+    stage("copying")
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    mesh = bpy.data.meshes.new("surface")
+    mesh.vertices.add(len(V))
+    mesh.vertices.foreach_set("co", V.astype(np.float32).reshape(-1))
+    mesh.loops.add(F.size)
+    mesh.loops.foreach_set("vertex_index", F.astype(np.int32).reshape(-1))
+    mesh.polygons.add(len(F))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, F.size, 3, dtype=np.int32))
+    mesh.update(calc_edges=True)
+    mesh.uv_layers.new(name="UVMap")
+    surface = bpy.data.objects.new("surface", mesh)
+    bpy.context.scene.collection.objects.link(surface)
+    bpy.context.view_layer.objects.active = surface
+    surface.select_set(True)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    stage("unwrap")
+    bpy.ops.uv.unwrap(method=method)
+    stage("copying")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    corner = np.empty(F.size, dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", corner)
+    found = np.empty(2 * F.size, dtype=np.float32)
+    mesh.uv_layers.active.uv.foreach_get("vector", found)
+    uv = np.empty((len(V), 2))
+    uv[corner] = found.reshape(-1, 2)
+    return Outcome(uv)

@@ -1,0 +1,32 @@
+"""Ours: the map to the disk, with the energies and flips that come with its result."""
+
+from __future__ import annotations
+
+import inspect
+
+import conformal_uv as cuv
+
+from .outcome import Arrays, Outcome, Stage
+
+RELATIVE_TOLERANCE = 1e-6  # of the projected gradient, relative to where Newton's method starts
+
+
+def tolerance(method: str) -> dict[str, float]:
+    """The keyword by which Newton's method is told where to end."""
+    if method != "newton" or "relative_tolerance" not in inspect.signature(cuv.disk_map).parameters:
+        return {}
+    return {"relative_tolerance": RELATIVE_TOLERANCE}
+
+
+def run(arrays: Arrays, stage: Stage, *, method: str, backend: str) -> Outcome:
+    """Everything from the checks of the arrays on."""
+    stage("checks")
+    result = cuv.disk_map(
+        arrays["V"],
+        arrays["F"],
+        method=method,
+        backend=backend,
+        callback=lambda name, fraction: stage(name),
+        **tolerance(method),
+    )
+    return Outcome(result.uv, {"distortion, if asked for": lambda: result.distortion.angle_mean})

@@ -1,0 +1,32 @@
+"""What a contestant hands back, and how it tells of its stages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Arrays", "Outcome", "Stage"]
+
+Arrays = dict[str, NDArray[np.generic]]
+"""A mesh, ``V`` (n, 3) float64 and ``F`` (m, 3) int64; for the limit a matrix, ``data``, ``indices``, ``indptr``."""
+
+Stage = Callable[[str], None]
+"""Called at the beginning of each stage with its name."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The map, and what is asked of it after the clock has stopped.
+
+    Attributes
+    ----------
+    uv : (n, 2) or (n, 3) float64, or None
+    later : dict
+        Numbers to compute afterwards, each timed by itself.
+    """
+
+    uv: NDArray[np.float64] | None = None
+    later: dict[str, Callable[[], float]] = field(default_factory=dict)
