@@ -517,6 +517,9 @@ PLATE = meshes.plate(3, 3)  # loop 0 1 2 3 7 11 15 14 13 12 8 4; interior 5 6 9 
         ({"tolerance": 0.0}, "tolerance must be positive"),
         ({"tolerance": -1e-9}, "tolerance must be positive"),
         ({"tolerance": np.nan}, "tolerance must be positive"),
+        ({"relative_tolerance": 1.0}, "relative_tolerance must be at least 0 and less than 1"),
+        ({"relative_tolerance": -0.1}, "relative_tolerance must be at least 0 and less than 1"),
+        ({"relative_tolerance": "small"}, "relative_tolerance 'small'.*pass numbers"),
         ({"max_iterations": -1}, "max_iterations not negative"),
         ({"pins": [0, 3, 15], "center": 5}, "Three pins already fix the map"),
         ({"pins": [0, 3, 15], "boundary_vertex": 0}, "Three pins already fix the map"),
@@ -657,6 +660,16 @@ def test_stopped_newton_says_so(most: int, caplog: pytest.LogCaptureFixture) -> 
     assert_is_a_disk_embedding(m, MASK[1])
 
 
+@pytest.mark.parametrize("part", [1e-2, 1e-6])
+def test_relative_tolerance_ends_newton_early(part: float) -> None:
+    """As soon as the gradient is at that part of where it began, and not before."""
+    m = cuv.disk_map(*MASK, relative_tolerance=part)
+    norms = [step.gradient_norm for step in m.history]
+    assert m.converged and norms[-1] <= part * norms[0] < norms[-2]
+    assert norms[-1] > 1e-10  # where it would have ended by itself
+    assert m.history == cuv.disk_map(*MASK, tolerance=part * norms[0]).history
+
+
 def test_converged_newton_is_silent(caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level(logging.WARNING):
         assert cuv.disk_map(*MASK).converged
@@ -705,6 +718,7 @@ def test_derivatives_of_the_boundary_energy(minus_area: bool) -> None:
     np.testing.assert_allclose(hessian, difference, rtol=0, atol=1e-9)
     np.testing.assert_allclose(hessian, hessian.T, rtol=0, atol=1e-13)
     np.testing.assert_allclose(hessian @ np.ones(len(b)), 0.0, rtol=0, atol=1e-12)  # a rotation costs nothing
+    np.testing.assert_allclose(energy.moebius_products(), hessian @ energy.moebius_moves, rtol=0, atol=1e-12)
 
 
 # --- what is loaded -----------------------------------------------------------------------------------------

@@ -454,6 +454,14 @@ def test_energies_against_the_matrix_and_the_boundary_polygon(name: str) -> None
     assert enclosed_area(z[surface.require_disk()]) == pytest.approx(area, rel=1e-12)
 
 
+def test_a_collapsed_face_keeps_no_angle() -> None:
+    """All of its corners count as 0, so each is off by its own angle, and so for collapsed faces of the surface."""
+    V, F = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]]
+    point = np.zeros((3, 2))
+    np.testing.assert_allclose(cuv.distortion(V, F, point).angle_error, [[90, 45, 45]], rtol=1e-15)
+    np.testing.assert_allclose(cuv.distortion(np.zeros((3, 3)), F, V[:, :2]).angle_error, [[90, 45, 45]], rtol=1e-15)
+
+
 # --- linear solves ------------------------------------------------------------------------------------------
 
 

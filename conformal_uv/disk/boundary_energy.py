@@ -55,15 +55,23 @@ class BoundaryEnergy:
         change = 1j * self.z * direction
         return self._product(direction, self.problem.flux(change, self.problem.interior_values(change)))
 
-    def moebius_products(self) -> tuple[tuple[Real, Real], tuple[Real, Real]]:
-        """The two Moebius directions that move the centre, -2 sin theta and 2 cos theta, and the Hessian times each.
+    @property
+    def moebius_moves(self) -> Real:
+        """The directions (nb, 2) in which maps of the disk that move 0 turn the angles.
+
+        One that moves 0 to a turns them by ``2 Im(a exp(-i theta))`` to first order.
+        """
+        return np.column_stack((-2.0 * np.sin(self.theta), 2.0 * np.cos(self.theta)))
+
+    def moebius_products(self) -> Real:
+        """Hessian times `moebius_moves`, (nb, 2).
 
         They move z by ``1 - z^2`` and ``i (1 + z^2)``. Constants have no flux, so the extension of z^2 serves both.
         """
         square = self.z * self.z
         flux = self.problem.flux(square, self.problem.interior_values(square))
-        moves = -2.0 * np.sin(self.theta), 2.0 * np.cos(self.theta)
-        return moves, (self._product(moves[0], -flux), self._product(moves[1], 1j * flux))
+        one, other = self.moebius_moves.T
+        return np.column_stack((self._product(one, -flux), self._product(other, 1j * flux)))
 
     def _product(self, direction: Real, flux: NDArray[np.complex128]) -> Real:
         """Hessian times a direction whose change of z has this flux."""

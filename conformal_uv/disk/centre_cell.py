@@ -46,8 +46,12 @@ def release_centre(
     if measure.centre is None:
         return found, False
     reach = _star_radius(surface, problem, measure.centre, found.energy)
-    predicted, gain = _predicted_shift(found.energy)
-    if not predicted < reach or gain < WORTH_WHILE * found.energy.value:
+    worth = WORTH_WHILE * found.energy.value
+    slope = found.energy.moebius_moves.T @ found.energy.gradient
+    if 0.5 * float(np.linalg.norm(slope)) * reach < worth:  # a step within the star gains less, whatever the Hessian
+        return found, False
+    predicted, gain = _predicted_shift(found.energy, slope)
+    if not predicted < reach or gain < worth:
         return found, False
     free = minimise_boundary_energy(
         problem,
@@ -73,14 +77,9 @@ def _star_radius(surface: Surface, problem: DirichletProblem, centre: int, energ
     return float(np.abs(z[neighbours] - z[centre]).max())
 
 
-def _predicted_shift(energy: BoundaryEnergy) -> tuple[float, float]:
-    """How far Newton's step in the two Moebius directions that move the centre would move it, and what it gains.
-
-    A map of the disk that moves 0 to a turns the angles by ``2 Im(a exp(-i theta))`` to first order.
-    """
-    moves, products = (np.column_stack(pair) for pair in energy.moebius_products())
-    slope = moves.T @ energy.gradient
-    curvature = moves.T @ products
+def _predicted_shift(energy: BoundaryEnergy, slope: NDArray[np.float64]) -> tuple[float, float]:
+    """How far Newton's step in the two Moebius directions that move the centre would move it, and what it gains."""
+    curvature = energy.moebius_moves.T @ energy.moebius_products()
     if np.linalg.eigvalsh(curvature)[0] <= 0.0:
         return np.inf, 0.0
     step = np.linalg.solve(curvature, slope)

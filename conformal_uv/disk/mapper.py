@@ -13,11 +13,12 @@ from ..mesh.surface import Surface
 from ..operators.cholesky import choose_backend
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, edge_laplacian
+from ..operators.orientation_sign import flipped_faces
 from ..progress import Callback, Progress
 from .harmonic_measure import CentredMeasure, centred_measure
 from .options import DiskOptions
-from .placement import place_center, place_pins
-from .repair import flipped_faces, recentred, repair_cost, repaired
+from .placement import inside_disk, place_center, place_pins
+from .repair import recentred, repair_cost, repaired
 from .result import DiskMap, disk_map_result
 from .solution import Solution, solve_augmented_lagrangian, solve_linear, solve_newton
 
@@ -100,15 +101,13 @@ class DiskMapper:
         if not solution.converged:
             log.warning("%s stopped before its tolerance, after %d rows", method, len(solution.history))
         progress("placement", 0.0)
-        z, center = self._placed(solution, options)
-        z = _inside(z)
-        corners = self.surface.corners
-        flipped, exhausted, cost = flipped_faces(z, corners), False, None
+        z, flipped, center = self._placed(solution, options)
+        exhausted, cost = False, None
         if len(flipped) and options.repair == "auto" and options.method != "augmented-lagrangian":
-            folded, before = z, flipped
+            corners, folded, before = self.surface.corners, z, flipped
             z, exhausted = repaired(self.surface, z, flipped, self.boundary, progress)
             if z is not folded:
-                z = _inside(recentred(z, center, corners))
+                z = inside_disk(recentred(z, center, corners))
                 flipped = flipped_faces(z, corners)
                 cost = repair_cost(self.surface, folded, z, before, flipped)
             center = center if center is not None and z[center] == 0.0 else None
@@ -145,21 +144,18 @@ class DiskMapper:
             self._factorized[kind] = problem, centred_measure(surface, problem)
         return self._factorized[kind]
 
-    def _placed(self, solution: Solution, options: DiskOptions) -> tuple[NDArray[np.complex128], int | None]:
-        """Positions after the Moebius map that the options ask for, and the vertex at 0."""
-        if solution.problem is None or options.constrained_pins is not None:
-            return solution.z, None
+    def _placed(
+        self, solution: Solution, options: DiskOptions
+    ) -> tuple[NDArray[np.complex128], NDArray[np.int64], int | None]:
+        """Positions after the Moebius map that the options ask for, the faces folded there, and the vertex at 0."""
         corners = self.surface.corners
+        if solution.problem is None or options.constrained_pins is not None:
+            z = inside_disk(solution.z)
+            return z, flipped_faces(z, corners), None
         if options.pins is not None:
-            return place_pins(solution.problem, corners, solution.z, options.pins), None
+            return *place_pins(solution.problem, corners, solution.z, options.pins), None
         center = options.center
         if center is None and solution.center is not None and abs(solution.z[solution.center]) < 1.0:
             center = solution.center  # where crowding has not swept it onto the circle
         first = int(self.boundary[0]) if options.boundary_vertex is None else options.boundary_vertex
-        return place_center(solution.problem, corners, solution.z, center, first), center
-
-
-def _inside(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """z with what rounding, large in an ill-conditioned solution, has put outside the disk back on the circle."""
-    size = np.abs(z)
-    return np.where(size > 1.0, z / np.maximum(size, 1.0), z)
+        return *place_center(solution.problem, corners, solution.z, center, first), center

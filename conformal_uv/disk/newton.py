@@ -25,6 +25,7 @@ SHORTEST_STEP = 0.05  # of a Newton direction; neighbours that allow no more are
 SMALLEST_GAP = 1e-12  # radians; below it neighbours are linked from the start
 SUFFICIENT_DECREASE = 1e-4  # Armijo's constant
 MOST_CG_STEPS = 200  # for one Newton step
+LEAST_FORCING = 1e-3  # of the gradient is left by a direction; the energy is so nearly quadratic that this pays
 
 
 class NewtonStep(NamedTuple):
@@ -72,7 +73,8 @@ def minimise_boundary_energy(
     The energy never rises and the order of the boundary is never broken: neighbours that want to change places are
     linked, and move together from then on unless the energy would fall by parting them. The iteration ends when the
     norm of the gradient, projected onto what gauge and links leave free, is at most `tolerance`, `relative_tolerance`
-    times what it was at first, or the rounding of its terms, when no step lowers the energy any more, or after `max_iterations`.
+    times what it was at first, or the rounding of its terms, when no step lowers the energy any more, or after
+    `max_iterations`.
 
     Parameters
     ----------
@@ -127,7 +129,7 @@ def _newton_direction(
     gradient = tangent.project(energy.gradient)
     bend = gauge.curvature(energy.theta, energy.gradient)
     norm = float(np.linalg.norm(gradient))
-    goal = max(min(0.1, np.sqrt(norm)) * norm, 0.3 * tolerance)
+    goal = max(min(0.1, max(LEAST_FORCING, 0.5 * norm)) * norm, 0.5 * tolerance)
     direction = np.zeros_like(gradient)
     residual = -gradient
     smooth = tangent.precondition(residual)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolverError
 from ..operators.dirichlet import DirichletProblem
 from ..operators.moebius import Moebius
-from ..operators.wirtinger import planar_sides, signed_double_areas
+from ..operators.orientation_sign import flipped_faces
 from .gauge import CentreGauge
 
-__all__ = ["CUBE_ROOTS", "place_center", "place_pins"]
+__all__ = ["CUBE_ROOTS", "inside_disk", "place_center", "place_pins"]
 
 Complex = NDArray[np.complex128]
 
@@ -19,36 +21,52 @@ CUBE_ROOTS = np.exp(2j * np.pi / 3.0 * np.arange(3))
 CUBE_ROOTS[0] = 1.0
 
 
+def inside_disk(z: Complex) -> Complex:
+    """z with what rounding, large in an ill-conditioned solution, has put outside the disk back on the circle."""
+    size = np.abs(z)
+    return z / np.maximum(size, 1.0) if size.max(initial=0.0) > 1.0 else z
+
+
 def place_center(
     problem: DirichletProblem, corners: NDArray[np.int32], z: Complex, center: int | None, boundary_vertex: int
-) -> Complex:
-    """The map with `center` (None: what is at 0 now) at 0 and the boundary vertex at 1."""
+) -> tuple[Complex, NDArray[np.int64]]:
+    """The map with `center` (None: what is at 0 now) at 0 and the boundary vertex at 1, and the faces folded there."""
     p = 0.0 if center is None else complex(z[center])
     if not abs(p) < 1.0:
         raise SolverError(
             f"Vertex {center} comes to lie on the circle: seen from there the rest of the surface is too small for "
             "doubles. Choose a center farther from the boundary."
         )
-    placed = _pointwise(problem, z, Moebius.to_zero(p, z[boundary_vertex]))
-    if p != 0.0 and center is not None and _flips(placed, corners) > _flips(z, corners):
-        placed = _extended_about(problem, z, placed, center, boundary_vertex)
-    if center is not None:
-        placed[center] = 0.0
-    placed[boundary_vertex] = 1.0
-    return placed
+    fixed = {boundary_vertex: 1.0} if center is None else {center: 0.0, boundary_vertex: 1.0}
+    placed = _fixed(_pointwise(problem, z, Moebius.to_zero(p, z[boundary_vertex])), fixed)
+    folds = flipped_faces(placed, corners)
+    if p != 0.0 and center is not None and len(folds) and len(folds) > len(flipped_faces(z, corners)):
+        placed = _fixed(_extended_about(problem, z, placed, center, boundary_vertex), fixed)
+        folds = flipped_faces(placed, corners)
+    return placed, folds
 
 
 def place_pins(
     problem: DirichletProblem, corners: NDArray[np.int32], z: Complex, pins: tuple[int, int, int]
-) -> Complex:
-    """The map with the three pins at the cube roots of unity."""
+) -> tuple[Complex, NDArray[np.int64]]:
+    """The map with the three pins at the cube roots of unity, and the faces folded there."""
     at = list(pins)
-    placed = _pointwise(problem, z, Moebius.from_three_pairs(z[at], CUBE_ROOTS))
-    placed[at] = CUBE_ROOTS
-    if _flips(placed, corners) > _flips(z, corners):
-        extended = problem.extend(placed[problem.boundary])
-        placed = extended if _flips(extended, corners) < _flips(placed, corners) else placed
-    return placed
+    fixed = dict(zip(at, CUBE_ROOTS, strict=True))
+    placed = _fixed(_pointwise(problem, z, Moebius.from_three_pairs(z[at], CUBE_ROOTS)), fixed)
+    folds = flipped_faces(placed, corners)
+    if len(folds) and len(folds) > len(flipped_faces(z, corners)):
+        extended = _fixed(problem.extend(placed[problem.boundary]), fixed)
+        fewer = flipped_faces(extended, corners)
+        if len(fewer) < len(folds):
+            return extended, fewer
+    return placed, folds
+
+
+def _fixed(z: Complex, places: Mapping[int, complex]) -> Complex:
+    """z within the disk, some vertices exactly at their places."""
+    z = inside_disk(z)
+    z[list(places)] = list(places.values())
+    return z
 
 
 def _pointwise(problem: DirichletProblem, z: Complex, moebius: Moebius) -> Complex:
@@ -83,6 +101,3 @@ def _extended_about(
 def _on_circle(zb: Complex) -> Complex:
     return zb / np.abs(zb)
 
-
-def _flips(z: Complex, corners: NDArray[np.int32]) -> int:
-    return int(np.count_nonzero(signed_double_areas(planar_sides(z, corners)) <= 0.0))

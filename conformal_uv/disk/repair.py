@@ -20,12 +20,13 @@ from ..mesh.surface import Surface
 from ..operators.distortion import distortion_of
 from ..operators.mean_value import positive_mean_value_matrix
 from ..operators.moebius import Moebius
-from ..operators.orientation_sign import orientation_signs
+from ..operators.orientation_sign import flipped_faces
 from ..progress import Progress
 
-__all__ = ["Repair", "flipped_faces", "recentred", "repair_cost", "repaired", "unresolved_faces"]
+__all__ = ["Repair", "recentred", "repair_cost", "repaired", "unresolved_faces"]
 
 Complex = NDArray[np.complex128]
+Faces = NDArray[np.int64]
 
 MOST_TRIED = 100  # collapsed faces
 FIRST_RINGS = 1  # of the patch around a fold
@@ -52,23 +53,16 @@ class Repair:
     angle_mean_after: float
 
 
-def repair_cost(
-    surface: Surface, before: Complex, after: Complex, flipped_before: NDArray[np.int64], flipped_after: NDArray[np.int64]
-) -> Repair:
-    """What the repair of positions `before` to `after` did."""
+def repair_cost(surface: Surface, before: Complex, after: Complex, folds: Faces, folds_after: Faces) -> Repair:
+    """What the repair of positions `before`, with these folds, to `after` did."""
     angles = [distortion_of(surface.geometry, surface.corners, _points(z)).angle_mean for z in (before, after)]
     return Repair(
-        flipped_before=len(flipped_before),
-        flipped_after=len(flipped_after),
+        flipped_before=len(folds),
+        flipped_after=len(folds_after),
         moved_vertices=int(np.count_nonzero(after != before)),
         angle_mean_before=angles[0],
         angle_mean_after=angles[1],
     )
-
-
-def flipped_faces(z: Complex, corners: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Faces with non-positive area, decided exactly."""
-    return np.flatnonzero(orientation_signs(_points(z), corners) <= 0)
 
 
 def unresolved_faces(z: Complex, corners: NDArray[np.int32], faces: NDArray[np.int64]) -> NDArray[np.int64]:

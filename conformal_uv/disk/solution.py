@@ -55,7 +55,8 @@ def solve_newton(
     theta, pins = measure.theta, options.constrained_pins
     if pins is not None:
         start = solve_linear(problem, measure).z
-        theta = _angles(place_pins(problem, surface.corners, start, pins)[loop])
+        placed, _ = place_pins(problem, surface.corners, start, pins)
+        theta = _angles(placed[loop])
         gauge = PinGauge(np.array([np.flatnonzero(loop == pin)[0] for pin in pins]))
     found: NewtonResult = minimise_boundary_energy(
         problem,

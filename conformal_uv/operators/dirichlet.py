@@ -176,4 +176,5 @@ def _numbered(
 
 def _degrees(laplacian: EdgeLaplacian, n: int) -> NDArray[np.float64]:
     """Sum of the weights around each vertex, (n,)."""
-    return np.bincount(laplacian.lo, laplacian.weights, n) + np.bincount(laplacian.hi, laplacian.weights, n)
+    lower = np.bincount(laplacian.lo, laplacian.weights, n).astype(np.float64, copy=False)
+    return lower + np.bincount(laplacian.hi, laplacian.weights, n)

@@ -32,7 +32,11 @@ class Moebius:
     def __call__(self, z: ArrayLike) -> Complex:
         """Images of complex numbers of any shape."""
         w = np.asarray(z, dtype=np.complex128)
-        return (self.a * w + self.b) / (self.c * w + self.d)
+        over, under = self.a * w, self.c * w
+        over += self.b
+        under += self.d
+        over /= under
+        return over
 
     def __matmul__(self, other: Moebius) -> Moebius:
         """The map that applies `other` first."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..mesh.blocks import blocks
 
-__all__ = ["orientation_signs"]
+__all__ = ["flipped_faces", "orientation_signs"]
 
 EPS = 0.5 * np.finfo(np.float64).eps
 ERROR_BOUND = (3.0 + 16.0 * EPS) * EPS
@@ -47,6 +47,11 @@ def orientation_signs(uv: NDArray[np.float64], corners: NDArray[np.int32]) -> ND
     if len(doubtful):
         signs[doubtful] = _exact(uv, corners[:, doubtful])
     return signs
+
+
+def flipped_faces(z: NDArray[np.complex128], corners: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Faces with non-positive area in the plane, decided exactly."""
+    return np.flatnonzero(orientation_signs(np.ascontiguousarray(z).view(np.float64).reshape(-1, 2), corners) <= 0)
 
 
 def _exact(uv: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int8]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk.repair import flipped_faces, repaired
+from ..disk.repair import repaired
 from ..mesh.surface import Surface
+from ..operators.orientation_sign import flipped_faces
 from ..progress import Progress
 from .centring import turn_to_pole, unit
 from .stereographic import from_plane, to_plane
