@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..operators.dirichlet import DirichletProblem
+from ..operators.truncated_cg import truncated_cg
 from ..progress import Progress
 from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge
@@ -24,7 +25,6 @@ GAP_KEPT = 0.1  # of the angle between two neighbours, what a step leaves at the
 SHORTEST_STEP = 0.05  # of a Newton direction; neighbours that allow no more are linked
 SMALLEST_GAP = 1e-12  # radians; below it neighbours are linked from the start
 SUFFICIENT_DECREASE = 1e-4  # Armijo's constant
-MOST_CG_STEPS = 200  # for one Newton step
 LEAST_FORCING = 1e-3  # of the gradient is left by a direction; the energy is so nearly quadratic that this pays
 
 
@@ -122,32 +122,14 @@ def minimise_boundary_energy(
 def _newton_direction(
     energy: BoundaryEnergy, gauge: Gauge, tangent: Tangent, tolerance: float
 ) -> tuple[Real, int]:
-    """Solve ``P H P d = -P g`` by preconditioned conjugate gradients, stopped early (Steihaug 1983).
-
-    H is the Hessian of the Lagrangian, energy less constraints times multipliers.
-    """
+    """Solve ``P H P d = -P g``, H the Hessian of the Lagrangian: energy less constraints times multipliers."""
     gradient = tangent.project(energy.gradient)
     bend = gauge.curvature(energy.theta, energy.gradient)
     norm = float(np.linalg.norm(gradient))
     goal = max(min(0.1, max(LEAST_FORCING, 0.5 * norm)) * norm, 0.5 * tolerance)
-    direction = np.zeros_like(gradient)
-    residual = -gradient
-    smooth = tangent.precondition(residual)
-    search, product = smooth, float(residual @ smooth)
-    for step in range(1, MOST_CG_STEPS + 1):
-        image = tangent.project(energy.hessian_product(search) + bend * search)
-        curvature = float(search @ image)
-        if curvature <= 1e-12 * product:  # the energy does not rise along the search direction
-            return (direction if step > 1 else smooth), step
-        length = product / curvature
-        direction = direction + length * search
-        residual = residual - length * image
-        if np.linalg.norm(residual) <= goal:
-            break
-        smooth = tangent.precondition(residual)
-        product, previous = float(residual @ smooth), product
-        search = smooth + (product / previous) * search
-    return direction, step
+    return truncated_cg(
+        gradient, lambda d: tangent.project(energy.hessian_product(d) + bend * d), tangent.precondition, goal
+    )
 
 
 def _line_search(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..disk.newton import NewtonStep
 from ..operators.dirichlet import DirichletProblem
+from ..operators.truncated_cg import truncated_cg
 from ..progress import Progress
 from .centring import centred, unit
 from .energy import SphereEnergy
@@ -18,7 +19,6 @@ __all__ = ["SphereNewton", "minimise_sphere_energy"]
 
 Real = NDArray[np.float64]
 
-MOST_CG_STEPS = 100
 VOLUME_KEPT = 0.95  # of the signed volume, by one step
 SUFFICIENT_DECREASE = 1e-4
 EPS = np.finfo(np.float64).eps
@@ -116,24 +116,7 @@ def minimise_sphere_energy(
 def _direction(energy: SphereEnergy, held: _Held, gradient: Real, tolerance: float) -> tuple[Real, int]:
     norm = float(np.linalg.norm(gradient))
     goal = max(min(0.1, np.sqrt(norm)) * norm, 0.3 * tolerance)
-    direction = np.zeros_like(gradient)
-    residual = -gradient
-    smooth = held.precondition(residual)
-    search, product = smooth, float(np.vdot(residual, smooth))
-    for step in range(1, MOST_CG_STEPS + 1):
-        image = held.project(energy.hessian_product(search))
-        curvature = float(np.vdot(search, image))
-        if curvature <= 1e-10 * product:
-            return (direction if step > 1 else smooth), step
-        length = product / curvature
-        direction = direction + length * search
-        residual = residual - length * image
-        if np.linalg.norm(residual) <= goal:
-            break
-        smooth = held.precondition(residual)
-        product, previous = float(np.vdot(residual, smooth)), product
-        search = smooth + (product / previous) * search
-    return direction, step
+    return truncated_cg(gradient, lambda d: held.project(energy.hessian_product(d)), held.precondition, goal)
 
 
 def _line_search(
