@@ -27,6 +27,10 @@ CLOSED_SIZES = [1_000, 10_000, 100_000]
 LIBRARIES = ("numpy", "scipy", "cvxopt", "libigl", "pymeshlab", "lapy")
 
 
+class OptionError(Exception):
+    """Options that do not fit."""
+
+
 def parser() -> argparse.ArgumentParser:
     """The options."""
     found = argparse.ArgumentParser(
@@ -69,14 +73,17 @@ def main() -> None:
     if not options.report:
         try:
             measure(options, rows)
-        except (KeyError, ValueError) as error:
-            commands.error(str(error.args[0]))
-    report(options.out, read_rows(rows), options.time_limit)
+        except OptionError as error:
+            commands.error(str(error))
+    report(options.out, read_rows(rows))
 
 
 def measure(options: argparse.Namespace, rows: Path) -> None:
     """Run what the options ask for, a line for each row."""
-    contestants = named(options.contestants)
+    try:
+        contestants = named(options.contestants)
+    except KeyError as error:
+        raise OptionError(error.args[0]) from None
     with tempfile.TemporaryDirectory(dir=options.scratch) as scratch:
         plan = Plan(
             meshes=chosen_meshes(options),
@@ -102,7 +109,7 @@ def chosen_meshes(options: argparse.Namespace) -> dict[str, list[int]]:
     sizes = {"terrain": options.sizes, "ellipsoid": options.closed_sizes}
     if "face" in families:
         if options.face is None:
-            raise ValueError("the family face needs --face FILE")
+            raise OptionError("the family face needs --face FILE")
         from .meshes import subdivision_sizes
 
         sizes["face"] = subdivision_sizes(options.face, max(options.sizes))
@@ -126,9 +133,9 @@ def about() -> str:
     return f"{', '.join(versions)}; {os.cpu_count()} processors."
 
 
-def report(folder: Path, rows: list[Row], time_limit: float) -> None:
+def report(folder: Path, rows: list[Row]) -> None:
     """Print and save the tables, draw the plots where there is matplotlib."""
-    text = markdown(rows, time_limit, about())
+    text = markdown(rows, about())
     (folder / "tables.md").write_text(text, encoding="utf-8")
     print(f"\n{text}")
     if importlib.util.find_spec("matplotlib") is None:

@@ -1,4 +1,4 @@
-"""Memory of this process, in bytes."""
+"""Memory of processes, in bytes."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ import resource
 import sys
 from pathlib import Path
 
-__all__ = ["die_first", "limit_memory", "peak_memory", "resident_memory"]
-
-STATUS = Path("/proc/self/status")
+__all__ = ["die_first", "peak_memory", "resident_memory"]
 
 
 def peak_memory() -> int:
@@ -24,17 +22,9 @@ def peak_memory() -> int:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 
 
-def resident_memory() -> int:
-    """What is resident now; the peak where the system does not tell."""
-    told = _status("VmRSS")
-    return peak_memory() if told is None else told
-
-
-def limit_memory(gigabytes: float) -> None:
-    """From now on allocations beyond this fail, with MemoryError where the program looks."""
-    if gigabytes:
-        most = int(gigabytes * 1e9)
-        resource.setrlimit(resource.RLIMIT_DATA, (most, most))
+def resident_memory(process: int | str = "self") -> int | None:
+    """What is resident now, of this process or of another; None where the system does not tell."""
+    return _status("VmRSS", process)
 
 
 def die_first() -> None:
@@ -43,9 +33,9 @@ def die_first() -> None:
         Path("/proc/self/oom_score_adj").write_text("1000")
 
 
-def _status(name: str) -> int | None:
+def _status(name: str, process: int | str = "self") -> int | None:
     try:
-        lines = STATUS.read_text().splitlines()
+        lines = Path(f"/proc/{process}/status").read_text().splitlines()
     except OSError:
         return None
     return next((int(line.split()[1]) * 1024 for line in lines if line.startswith(f"{name}:")), None)

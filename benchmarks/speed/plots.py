@@ -15,7 +15,8 @@ matplotlib.use("Agg")
 
 from matplotlib import pyplot as plt  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.ticker import FuncFormatter, NullLocator  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
+from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator  # noqa: E402
 
 __all__ = ["draw"]
 
@@ -68,21 +69,25 @@ def _picture(rows: list[Row], number: Callable[[Row], float], label: str, path: 
     again = {name for name in lines if CONTESTANTS[name].group == "again"}
     superlu = {name: lines[name] for name in lines if "superlu" in name}
     first = {name: lines[name] for name in lines if name not in superlu and name not in again}
-    panels = [panel for panel in (first, superlu) if panel]
+    closed = all(CONTESTANTS[name].closed for name in lines)
+    titles = {"" if closed else "ours with CHOLMOD, its limit, other programs": first}
+    titles["ours with SuperLU, its limit"] = superlu
+    panels = {title: panel for title, panel in titles.items() if panel}
     if not panels:
         return False
     figure, axes = plt.subplots(
         1, len(panels), figsize=(7.6 * len(panels), 6.4), sharey=True, squeeze=False, layout="constrained"
     )
-    for ax, panel in zip(axes[0], panels, strict=True):
+    for ax, (title, panel) in zip(axes[0], panels.items(), strict=True):
+        ax.set_title(title, fontsize=10, loc="left", color="0.3")
         for name, points in panel.items():
             ax.plot(*zip(*points, strict=True), **_style(name), clip_on=False)
         ax.set_xscale("log")
         ax.set_yscale("log")
         ax.set_xlabel("vertices")
-        _ticks(ax, sorted({n for points in lines.values() for n, _ in points}))
     axes[0][0].set_ylabel(label)
-    for ax, panel in zip(axes[0], panels, strict=True):
+    for ax, panel in zip(axes[0], panels.values(), strict=True):  # once both panels have set the limits they share
+        _ticks(ax, sorted({n for points in lines.values() for n, _ in points}))
         _labels(ax, panel)
     figure.suptitle(f"{rows[0].mesh}: {label}, median over processes")
     figure.savefig(path, dpi=150)
@@ -122,6 +127,8 @@ def _ticks(ax: Axes, sizes: Sequence[int]) -> None:
     ax.set_xticks(kept, [_short(n) for n in kept])
     ax.xaxis.set_minor_locator(NullLocator())
     ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    low, high = ax.get_ylim()
+    ax.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: f"{value:g}") if high < 15 * low else NullFormatter())
     ax.grid(True, which="major", color="0.9", linewidth=0.8)
     ax.spines[["top", "right"]].set_visible(False)
 
@@ -131,29 +138,45 @@ def _short(n: int) -> str:
 
 
 def _labels(ax: Axes, lines: dict[str, Points]) -> None:
-    """Names at the right ends of lines, moved apart, each with a leader to its line."""
+    """Names beside the right ends of lines, moved apart, or at the last point of lines that end before."""
     to_axes = ax.transScale + ax.transLimits
-    ends = {name: to_axes.transform(points[-1]) for name, points in lines.items()}
-    names = sorted(ends, key=lambda name: ends[name][1])
-    heights = _apart([float(ends[name][1]) for name in names], GAP)
-    for name, height in zip(names, heights, strict=True):
-        colour = _style(name)["color"]
+    last = max(points[-1][0] for points in lines.values())
+    whole: dict[str, tuple[float, float]] = {}
+    for name, points in lines.items():
+        if points[-1][0] < last:
+            side = "right" if len(points) > 1 else "left"
+            shift = (-5 if len(points) > 1 else 5, 5)
+            text = ax.annotate(name, points[-1], shift, textcoords="offset points", ha=side, **_text_style(name))
+            text.set_path_effects([withStroke(linewidth=3, foreground="white")])
+        else:
+            x, y = to_axes.transform(points[-1])
+            whole[name] = float(x), float(y)
+    names = sorted(whole, key=lambda name: whole[name][1])
+    for name, height in zip(names, _apart([whole[name][1] for name in names], GAP), strict=True):
+        leader = {"arrowstyle": "-", "linewidth": 0.7, "alpha": 0.6, "shrinkA": 0, "shrinkB": 3, "relpos": (0.0, 0.5)}
         ax.annotate(
             name,
-            xy=tuple(ends[name]),
+            xy=whole[name],
             xycoords="axes fraction",
-            xytext=(1.05, height),
+            xytext=(whole[name][0] + 0.08, height),
             textcoords="axes fraction",
-            color=colour,
             va="center",
-            fontsize=9,
-            fontweight="bold" if CONTESTANTS[name].group == "ours" else "normal",
-            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "alpha": 0.5, "shrinkA": 1, "shrinkB": 4},
+            arrowprops=leader | {"color": _style(name)["color"]},
+            **_text_style(name),
         )
 
 
+def _text_style(name: str) -> dict[str, Any]:
+    """A name in the colour of its line, ours in bold."""
+    weight = "bold" if CONTESTANTS[name].group == "ours" else "normal"
+    return {"color": _style(name)["color"], "fontsize": 9, "fontweight": weight}
+
+
 def _apart(heights: list[float], gap: float) -> list[float]:
-    """Heights in rising order moved as little as their gaps need: blocks of labels that touch keep their mean."""
+    """Heights in rising order, moved as little as gaps between them need, none above 1.
+
+    Labels that touch become a block around the mean of what they asked for.
+    """
     blocks: list[tuple[float, int]] = []  # middle and number of labels of each block
     for height in heights:
         middle, count = height, 1
@@ -161,4 +184,5 @@ def _apart(heights: list[float], gap: float) -> list[float]:
             below, many = blocks.pop()
             middle, count = (middle * count + below * many) / (count + many), count + many
         blocks.append((middle, count))
-    return [middle + gap * (k - (count - 1) / 2) for middle, count in blocks for k in range(count)]
+    placed = [middle + gap * (k - (count - 1) / 2) for middle, count in blocks for k in range(count)]
+    return [min(place, 1.0 - gap * (len(placed) - 1 - k)) for k, place in enumerate(placed)]

@@ -27,7 +27,7 @@ class Row:
     calls : list of dict
         For each call in the process: seconds, cpu (seconds of all threads), stages (seconds by name).
     before, peak : int
-        Bytes resident just before the call, and at most up to its end.
+        Bytes resident just before the call (0 where the system does not tell), and at most up to its end.
     later : dict
         What was computed after the clock stopped, with its seconds.
     quality : dict

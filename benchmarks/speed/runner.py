@@ -6,6 +6,8 @@ import json
 import signal
 import subprocess
 import sys
+import tempfile
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from .contestants import Contestant
+from .memory import resident_memory
 from .rows import Row, append_row, read_rows
 
 __all__ = ["Plan", "Runner"]
@@ -23,6 +26,7 @@ PACKAGE = __package__ or "benchmarks.speed"
 TINY = 400  # vertices of the mesh to warm up on
 SMALL = 100_000  # vertices up to which the call is repeated within a process
 BIG = 250_000  # vertices from which memory is touched before
+WATCH = 0.2  # seconds between two looks at a process
 HUGE = 1_500_000  # vertices from which there are fewer repeats
 
 
@@ -152,14 +156,13 @@ class Runner:
             "input": str(made[f"mesh{matrix}"]),
             "warm_up": str(made[f"tiny{matrix}"]),
             "calls": self.plan.calls if row.n <= SMALL else 1,
-            "memory_limit": self.plan.memory_limit,
             "map": str(folder / "map.npy"),
             "told": str(folder / "told.json"),
         }
         if self.plan.touch and row.n >= BIG:
             self._module("touch", self.plan.touch)
         python = self.plan.blender_python if contestant.blender else sys.executable
-        told = child(python, job, folder / "job.json", self.plan.time_limit)
+        told = child(python, job, folder / "job.json", self.plan.time_limit, self.plan.memory_limit)
         if told["status"] == "not installed":
             told["note"] = f"not installed ({contestant.needs or told['note']})"
         for name, value in told.items():
@@ -181,24 +184,50 @@ class Runner:
         return done.stdout
 
 
-def child(python: str, job: dict[str, Any], file: Path, time_limit: float) -> dict[str, Any]:
-    """Run the measured process; what it told, or how it ended."""
+def child(
+    python: str, job: dict[str, Any], file: Path, time_limit: float, memory_limit: float = 0.0
+) -> dict[str, Any]:
+    """Run the measured process; what it told, or how it ended. The limits are of seconds and of gigabytes, or 0."""
     told = Path(job["told"])
     told.unlink(missing_ok=True)
     file.write_text(json.dumps(job))
     command = [python, "-m", f"{PACKAGE}.child", str(file)]
     try:
-        done = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, timeout=time_limit, check=False)
-    except subprocess.TimeoutExpired:
-        return {"status": "over", "note": f"over {time_limit:g} s"}
+        with tempfile.TemporaryFile("w+") as errors:
+            with subprocess.Popen(command, cwd=REPOSITORY, stdout=subprocess.DEVNULL, stderr=errors) as process:
+                over = watched(process, time_limit, memory_limit)
+            errors.seek(0)
+            said = last_line(errors.read())
     except OSError as error:
         return {"status": "failed", "note": f"{python}: {error.strerror}"}
+    if over:
+        return {"status": "over", "note": over}
     if told.exists():
         return dict(json.loads(told.read_text()))
-    if done.returncode < 0:
-        name = signal.Signals(-done.returncode).name
+    if process.returncode < 0:
+        name = signal.Signals(-process.returncode).name
         return {"status": "failed", "note": f"crashed ({name}{', out of memory?' if name == 'SIGKILL' else ''})"}
-    return {"status": "failed", "note": last_line(done.stderr) or f"exit code {done.returncode}"}
+    return {"status": "failed", "note": said or f"exit code {process.returncode}"}
+
+
+def watched(process: subprocess.Popen[bytes], time_limit: float, memory_limit: float) -> str:
+    """Wait for a process and end it where it goes over a limit; which one, empty where it ended by itself.
+
+    Limits that the system sets make some libraries hang instead of fail, so it is looked at from outside.
+    """
+    end = time.monotonic() + time_limit
+    while True:
+        try:
+            process.wait(timeout=min(WATCH, max(end - time.monotonic(), 0.0)))
+            return ""
+        except subprocess.TimeoutExpired:
+            pass
+        over = f"over {time_limit:g} s" if time.monotonic() >= end else ""
+        if memory_limit and (resident_memory(process.pid) or 0) > memory_limit * 1e9:
+            over = f"over {memory_limit:g} GB"
+        if over:
+            process.kill()
+            return over
 
 
 def last_line(text: str) -> str:

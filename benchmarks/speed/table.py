@@ -24,16 +24,17 @@ Blender keeps UVs in single precision. libigl's and MeshLab's harmonic maps put 
 length, and keep no angles."""
 
 
-def markdown(rows: list[Row], time_limit: float, about: str) -> str:
+def markdown(rows: list[Row], about: str) -> str:
     """Everything as one text."""
     lines: Lines = ["# Speed, memory and quality, side by side", "", about, "", NOTES, ""]
-    lines += ["## What must hold", "", *_checks(checks(rows, time_limit)), ""]
+    lines += ["## What must hold", "", *_checks(checks(rows)), ""]
     for mesh in dict.fromkeys(row.mesh for row in rows):
         here = [row for row in rows if row.mesh == mesh]
         lines += [f"## {mesh}", ""]
-        lines += ["### Seconds", "", *_table(here, lambda cell: _spread(spread(cell, first_seconds), seconds)), ""]
-        lines += ["### Peak memory", "", *_table(here, lambda cell: _spread(spread(cell, peak), gigabytes)), ""]
-        lines += _warm(here) + _again(here) + _quality(here) + _stages(here)
+        once = [row for row in here if CONTESTANTS[row.contestant].group != "again"]
+        lines += ["### Seconds", "", *_table(once, lambda cell: _spread(spread(cell, first_seconds), seconds)), ""]
+        lines += ["### Peak memory", "", *_table(once, lambda cell: _spread(spread(cell, peak), gigabytes)), ""]
+        lines += _warm(once) + _again(here) + _quality(once) + _stages(once)
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -88,7 +89,8 @@ def _table(rows: list[Row], text: Callable[[list[Row]], str]) -> Lines:
         for size in sizes:
             cell = [row for row in rows if (row.size, row.contestant) == (size, name)]
             why = next((row.note for row in cell if row.note), "")
-            fields.append(" ".join(part for part in (text(cell), f"({why})" if why else "") if part))
+            number = text(cell)
+            fields.append(f"{number} ({why})" if number and why else number or why)
         lines.append(_line([name, *fields]))
     return lines
 
@@ -103,14 +105,17 @@ def _warm(rows: list[Row]) -> Lines:
 
 def _again(rows: list[Row]) -> Lines:
     """The mapper asked again."""
-    names = [name for name in _names(rows) if CONTESTANTS[name].group == "again"]
     stages = ("first", "again, center", "again, pins")
     lines = _rule(["", "vertices", *stages])
-    for name in names:
+    for name in _names(rows):
+        if CONTESTANTS[name].group != "again":
+            continue
         for size, n in _sizes(rows).items():
-            told = [spread(cells(rows, rows[0].mesh, size, name), stage_seconds(stage)) for stage in stages]
-            if told[0] is not None:
-                lines.append(_line([name, f"{n:,}", *(_spread(each, seconds) for each in told)]))
+            cell = cells(rows, rows[0].mesh, size, name)
+            told = [_spread(spread(cell, stage_seconds(stage)), seconds) for stage in stages]
+            why = next((row.note for row in cell if row.note), "")
+            if cell:
+                lines.append(_line([name, f"{n:,}", told[0] or why, *told[1:]]))
     return ["### Asked again", "", *lines, ""] if len(lines) > 2 else []
 
 

@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-import inspect
-
 import conformal_uv as cuv
 
 from .outcome import Arrays, Outcome, Stage
 
 RELATIVE_TOLERANCE = 1e-6  # of the projected gradient, relative to where Newton's method starts
-
-
-def tolerance(method: str) -> dict[str, float]:
-    """The keyword by which Newton's method is told where to end."""
-    if method != "newton" or "relative_tolerance" not in inspect.signature(cuv.disk_map).parameters:
-        return {}
-    return {"relative_tolerance": RELATIVE_TOLERANCE}
 
 
 def run(arrays: Arrays, stage: Stage, *, method: str, backend: str) -> Outcome:
@@ -27,6 +18,6 @@ def run(arrays: Arrays, stage: Stage, *, method: str, backend: str) -> Outcome:
         method=method,
         backend=backend,
         callback=lambda name, fraction: stage(name),
-        **tolerance(method),
+        relative_tolerance=RELATIVE_TOLERANCE,
     )
     return Outcome(result.uv, {"distortion, if asked for": lambda: result.distortion.angle_mean})

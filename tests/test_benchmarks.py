@@ -1,0 +1,201 @@
+"""The benchmark of speed on small meshes: its rows, tables and ratios, and what it says of those who fail."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from meshes_closed import icosphere
+
+from conformal_uv.samples import flat_disk, terrain
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+
+
+def module(name: str) -> ModuleType:
+    """A module of the benchmark, which is no installed package."""
+    return importlib.import_module(f"benchmarks.speed.{name}")
+
+
+@pytest.fixture(autouse=True)
+def from_repository(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(REPOSITORY))
+
+
+def run(*arguments: object, check: int = 0) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "benchmarks.speed", *map(str, arguments)]
+    done = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, timeout=300)
+    assert done.returncode == check, done.stderr
+    return done
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Ours and the limit on a thousand vertices, in a process each."""
+    folder = tmp_path_factory.mktemp("results")
+    names = ["linear-superlu", "newton-superlu", "limit-superlu", "limit-superlu-ordered"]
+    if importlib.util.find_spec("cvxopt"):
+        names += ["limit-cholmod", "again-linear"]
+    options = ("--meshes", "terrain", "--sizes", 1000, "--repeats", 1, "--calls", 2)
+    done = run(*options, "--contestants", *names, "--out", folder)
+    assert set(names) == {line.split()[2] for line in done.stdout.splitlines() if line.startswith("terrain  ")}
+    return folder
+
+
+def rows(folder: Path) -> dict[str, dict]:
+    return {row["contestant"]: row for row in map(json.loads, (folder / "rows.jsonl").read_text().splitlines())}
+
+
+def test_rows_have_times_stages_and_memory(results: Path):
+    for row in rows(results).values():
+        assert row["status"] == "ok" and row["note"] == ""
+        assert row["n"] == 1024 and len(row["calls"]) == 2
+        first = row["calls"][0]
+        assert 0.0 < sum(first["stages"].values()) <= 1.01 * first["seconds"] + 1e-3
+        assert row["peak"] >= row["before"]
+    found = rows(results)
+    assert {"checks", "assembly", "factorization", "linear", "newton"} <= set(
+        found["newton-superlu"]["calls"][0]["stages"]
+    )
+    assert {"build", "factorization", "solves"} == set(found["limit-superlu"]["calls"][0]["stages"])
+
+
+def test_the_limit_solves_its_system(results: Path):
+    limits = [row for name, row in rows(results).items() if name.startswith("limit")]
+    assert len(limits) >= 2
+    assert all(row["later"]["residual"]["value"] < 1e-12 for row in limits)
+
+
+def test_quality_is_that_of_the_map(results: Path):
+    linear, newton = (rows(results)[name]["quality"] for name in ("linear-superlu", "newton-superlu"))
+    assert newton["energy"] < linear["energy"] < 0.01
+    for told in (linear, newton):
+        assert told["flips"] == 0 and told["off_circle"] < 1e-12 and 0.0 < told["angle_mean"] < 5.0
+
+
+def test_table_and_plots_are_saved(results: Path):
+    text = (results / "tables.md").read_text()
+    for title in ("What must hold", "Seconds", "Peak memory", "Warm", "Quality", "Stages"):
+        assert f"# {title}\n" in text
+    assert "| linear-superlu | " in text and "1,024" in text
+    assert (results / "terrain-time.png").stat().st_size > 10_000
+    assert (results / "terrain-memory.png").exists()
+
+
+def test_resume_runs_nothing_again_and_a_second_start_refuses(results: Path):
+    before = (results / "rows.jsonl").read_text()
+    options = ("--meshes", "terrain", "--sizes", 1000, "--repeats", 1, "--out", results)
+    run(*options, "--contestants", "limit-superlu", "--resume")
+    assert (results / "rows.jsonl").read_text() == before
+    assert "--resume" in run(*options, check=2).stderr
+
+
+def test_those_who_fail_say_why_and_stop_nobody(tmp_path: Path):
+    V, F = icosphere(2)  # closed: no disk
+    lines = [f"v {x} {y} {z}" for x, y, z in V] + [f"f {a} {b} {c}" for a, b, c in F + 1]
+    (tmp_path / "closed.obj").write_text("\n".join(lines))
+    names = ("linear-superlu", "limit-superlu", "blender-conformal")
+    options = ("--face", tmp_path / "closed.obj", "--sizes", 200, "--blender-python", tmp_path / "no-python")
+    run("--meshes", "face", *options, "--contestants", *names, "--out", tmp_path / "out")
+    found = rows(tmp_path / "out")
+    assert [found[name]["status"] for name in names] == ["failed"] * 3
+    assert "TopologyError: The surface is closed" in found["linear-superlu"]["note"]
+    assert "The surface is closed" in found["limit-superlu"]["note"]
+    assert "no-python" in found["blender-conformal"]["note"]
+    assert "TopologyError" in (tmp_path / "out" / "tables.md").read_text()
+
+
+def test_time_limit_ends_a_process_and_skips_larger_meshes(tmp_path: Path):
+    options = ("--sizes", 1000, 2000, "--time-limit", 0.05, "--contestants", "linear-superlu", "--repeats", 2)
+    run("--meshes", "terrain", *options, "--out", tmp_path)
+    told = [json.loads(line) for line in (tmp_path / "rows.jsonl").read_text().splitlines()]
+    assert [(row["status"], row["note"]) for row in told] == [
+        ("over", "over 0.05 s"),
+        ("skipped", "over 0.05 s at 1024 vertices"),
+    ]
+
+
+@pytest.mark.parametrize(("name", "package"), [("libigl-lscm", "igl"), ("lapy", "lapy"), ("bff", "confmap.confmap")])
+def test_peers_run_or_are_not_installed(tmp_path: Path, name: str, package: str):
+    try:
+        there = importlib.util.find_spec(package) is not None
+    except ModuleNotFoundError:
+        there = False
+    closed = name == "lapy"
+    options = ("--sizes", 400, "--closed-sizes", 400, "--repeats", 1, "--contestants", name, "--out", tmp_path)
+    run("--meshes", "ellipsoid" if closed else "terrain", *options)
+    row = rows(tmp_path)[name]
+    if there:
+        assert row["status"] == "ok" and row["quality"]["flips"] == 0 and row["quality"]["angle_mean"] < 5.0
+    else:
+        assert row["status"] == "not installed" and row["note"].startswith("not installed (")
+
+
+def row_of(contestant: str, size: int, seconds: float, **told: object):
+    """A row as a process would have told it."""
+    calls = [{"seconds": seconds, "cpu": seconds, "stages": {}}]
+    given = {"status": "ok", "calls": calls, "peak": 10**9, **told}
+    return module("rows").Row("terrain", size, size, 2 * size, contestant, 0, **given)
+
+
+def test_power_of_growth():
+    sizes = np.array([262_144, 1_000_000, 2_300_000, 4_000_000])
+    assert module("ratios").power(sizes, 3e-6 * sizes**1.27) == pytest.approx(1.27, abs=1e-12)
+    measured = [row_of("linear-cholmod", int(n), 3e-6 * float(n) ** 1.4) for n in sizes]
+    check = next(c for c in module("ratios").checks(measured) if c.claim.startswith("linear: power"))
+    assert check.measured == pytest.approx(1.4) and check.verdict == "miss"
+    without = next(c for c in module("ratios").checks(measured[:-1]) if c.claim.startswith("linear: power"))
+    assert without.measured is None and without.verdict == "not measured"
+
+
+def test_ratios_of_medians_and_bounds():
+    measured = [row_of("linear-cholmod", 1_000_000, seconds) for seconds in (5.0, 6.0, 90.0)]
+    measured += [row_of("limit-cholmod", 1_000_000, 5.0, peak=5 * 10**8)]
+    measured += [row_of("libigl-harmonic", 1_000_000, 15.0)]
+    measured += [row_of("meshlab-harmonic", 1_000_000, 0.0, status="over", note="over 300 s", calls=[])]
+    found = {check.claim: check for check in module("ratios").checks(measured)}
+    time = found["linear-cholmod / limit-cholmod, time, 1M"]
+    assert time.measured == pytest.approx(1.2) and time.verdict == "pass"
+    memory = found["linear-cholmod / limit-cholmod, memory, 1M"]
+    assert memory.measured == pytest.approx(2.0) and memory.verdict == "miss"
+    peer = found["libigl-harmonic / linear-cholmod, time, 1M"]
+    assert peer.measured == pytest.approx(2.5) and peer.verdict == "miss"
+    slow = found["meshlab-harmonic / linear-cholmod, time, 1M"]
+    assert slow.measured == pytest.approx(50.0) and slow.bound and slow.verdict == "pass"
+
+
+def test_quality_of_known_maps():
+    quality = module("quality").quality
+    V, F = flat_disk(500)
+    F = F.astype(np.int64)
+    turned = V[:, :2] @ np.array([[0.6, -0.8], [0.8, 0.6]])
+    same = quality(V, F, turned * [-1.0, 1.0])  # mirrored: measured as if it were not
+    assert same["flips"] == 0 and abs(same["energy"]) < 1e-14 and same["off_circle"] < 1e-14
+    assert same["angle_mean"] < 1e-10
+    # A stretch by k: |f_zbar|^2 over the Jacobian, 2 (k - 1)^2 / (4 k).
+    assert quality(V, F, turned * [1.0, 3.0])["energy"] == pytest.approx(2.0 * 4.0 / 12.0, rel=1e-12)
+    one = turned.copy()
+    one[F[100, 0]] += 5.0 * (one[F[100, 1]] + one[F[100, 2]] - 2.0 * one[F[100, 0]])
+    assert quality(V, F, one)["flips"] > 0
+    assert quality(V, F, np.full_like(turned, np.nan))["flips"] == len(F)
+
+
+def test_subdivision_keeps_the_surface():
+    meshes = module("meshes")
+    V, F = terrain(100)
+    finer, faces = meshes.subdivided(V, F.astype(np.int64))
+    assert len(faces) == 4 * len(F)
+
+    def area(V, F):
+        return 0.5 * np.linalg.norm(np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), axis=1).sum()
+
+    assert area(finer, faces) == pytest.approx(area(V, F), rel=1e-13)
+    # Euler: a disk stays a disk.
+    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    assert len(finer) - len(np.unique(sides, axis=0)) + len(faces) == 1
