@@ -126,5 +126,5 @@ def test_options_and_their_defaults_are_those_of_unwrap():
     assert {name: ours[name].default for name in shared} == {name: core[name].default for name in shared}
     assert ours.keys() - shared == {"ms", "selected_only", "texture", "quality"}
     assert core.keys() - shared == {
-        "V", "polygons", "selection", "rotation", "tolerance", "max_iterations", "outer_loop"
+        "V", "polygons", "selection", "rotation", "tolerance", "relative_tolerance", "max_iterations", "outer_loop"
     }  # fmt: skip

@@ -26,6 +26,7 @@ class MapOptions:
     objective: str | None
     pin_mode: str | None
     tolerance: float
+    relative_tolerance: float
     max_iterations: int
     repair: str
 

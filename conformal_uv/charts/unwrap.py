@@ -26,6 +26,7 @@ def unwrap(
     boundary_vertex: Vertices = None,
     rotation: float = 0.0,
     tolerance: float = 1e-10,
+    relative_tolerance: float = 0.0,
     max_iterations: int = 50,
     holes: str = "fill",
     outer_loop: Vertices = None,
@@ -56,7 +57,7 @@ def unwrap(
         are filled.
     selection : (p,) bool or polygon indices, optional
         Polygons to map, by default all.
-    method, objective, pin_mode, tolerance, max_iterations, laplacian, repair, backend
+    method, objective, pin_mode, tolerance, relative_tolerance, max_iterations, laplacian, repair, backend
         As in `disk_map`.
     pins : vertices or triples of vertices, optional
         A chart with exactly three of them on its boundary is pinned by them, in the order of its boundary from
@@ -127,6 +128,7 @@ def unwrap(
         boundary_vertex=boundary_vertex,
         rotation=rotation,
         tolerance=tolerance,
+        relative_tolerance=relative_tolerance,
         max_iterations=max_iterations,
         repair=repair,
         place=place,

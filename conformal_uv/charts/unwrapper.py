@@ -85,6 +85,7 @@ class Unwrapper:
         boundary_vertex: Vertices = None,
         rotation: float = 0.0,
         tolerance: float = 1e-10,
+        relative_tolerance: float = 0.0,
         max_iterations: int = 50,
         repair: str = "auto",
         place: str = "fit",
@@ -95,7 +96,7 @@ class Unwrapper:
         check_place(place, margin)
         if not np.isfinite(rotation):
             raise OptionError(f"rotation is {rotation}; pass radians.")
-        options = MapOptions(method, objective, pin_mode, tolerance, max_iterations, repair)
+        options = MapOptions(method, objective, pin_mode, tolerance, relative_tolerance, max_iterations, repair)
         self._check(options)
         vertices = VertexOptions(
             vertex_list("center", center, self._used),
