@@ -57,7 +57,7 @@ def test_rows_have_times_stages_and_memory(results: Path):
         assert row["status"] == "ok" and row["note"] == ""
         assert row["n"] == 1024 and len(row["calls"]) == 2
         first = row["calls"][0]
-        assert 0.0 < sum(first["stages"].values()) <= 1.01 * first["seconds"] + 1e-3
+        assert 0.0 < sum(first["stages"].values()) <= first["seconds"]
         assert row["peak"] >= row["before"]
     found = rows(results)
     assert {"checks", "assembly", "factorization", "linear", "newton"} <= set(

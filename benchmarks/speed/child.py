@@ -48,8 +48,8 @@ def called(run: Run, arrays: Arrays, options: dict[str, Any]) -> tuple[dict[str,
     clock = Clock()
     cpu, start = time.process_time(), time.perf_counter()
     outcome = run(arrays, clock, **options)
-    seconds, cpu = time.perf_counter() - start, time.process_time() - cpu
     clock("")
+    seconds, cpu = time.perf_counter() - start, time.process_time() - cpu
     return {"seconds": seconds, "cpu": cpu, "stages": clock.stages}, outcome
 
 
@@ -72,7 +72,7 @@ def measured(job: dict[str, Any]) -> dict[str, Any]:
     time.sleep(REST)
     before = resident_memory()
     call, outcome = called(run, arrays, job["options"])
-    told = {"calls": [call], "before": before or 0, "peak": peak_memory()}
+    told: dict[str, Any] = {"calls": [call], "later": {}, "before": before or 0, "peak": peak_memory()}
     spent = call["seconds"]
     for _ in range(job["calls"] - 1):
         if spent > LONGEST_REPEATING:
@@ -80,7 +80,6 @@ def measured(job: dict[str, Any]) -> dict[str, Any]:
         call, outcome = called(run, arrays, job["options"])
         told["calls"].append(call)
         spent += call["seconds"]
-    told["later"] = {}
     for name, work in outcome.later.items():
         start = time.perf_counter()
         value = work()

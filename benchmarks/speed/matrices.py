@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -26,11 +27,13 @@ def save_matrix(mesh: Path, out: Path) -> None:
     boundary = surface.require_disk()
     laplacian = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, "auto")
     lower = interior_matrix(laplacian, boundary, surface.n)
-    told = {"data": lower.data, "indices": lower.indices, "indptr": lower.indptr}
+    told: dict[str, Any] = {"data": lower.data, "indices": lower.indices, "indptr": lower.indptr}
     inside = np.ones(surface.n, dtype=bool)
     inside[boundary] = False
     perm = nested_dissection(surface.V[inside], lower.indices, lower.indptr)
-    np.savez(out, **told, **({} if perm is None else {"perm": perm}))
+    if perm is not None:
+        told["perm"] = perm
+    np.savez(out, **told)
 
 
 if __name__ == "__main__":

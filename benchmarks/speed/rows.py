@@ -9,7 +9,18 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-__all__ = ["Row", "Spread", "append_row", "cells", "first_seconds", "peak", "read_rows", "spread", "warm_seconds"]
+__all__ = [
+    "Row",
+    "Spread",
+    "append_row",
+    "cells",
+    "first_seconds",
+    "peak",
+    "read_rows",
+    "spread",
+    "stage_seconds",
+    "warm_seconds",
+]
 
 
 @dataclass

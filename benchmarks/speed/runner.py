@@ -3,30 +3,20 @@
 from __future__ import annotations
 
 import json
-import signal
-import subprocess
 import sys
-import tempfile
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from .contestants import Contestant
-from .memory import resident_memory
+from .processes import child, module
 from .rows import Row, append_row, read_rows
 
 __all__ = ["Plan", "Runner"]
 
-REPOSITORY = Path(__file__).resolve().parents[2]
-PACKAGE = __package__ or "benchmarks.speed"
 TINY = 400  # vertices of the mesh to warm up on
-SMALL = 100_000  # vertices up to which the call is repeated within a process
+SMALL = 100_000  # size up to which the call is repeated within a process
 BIG = 250_000  # vertices from which memory is touched before
-WATCH = 0.2  # seconds between two looks at a process
 HUGE = 1_500_000  # vertices from which there are fewer repeats
 
 
@@ -83,7 +73,8 @@ class Runner:
     def __post_init__(self) -> None:
         self.rows = read_rows(self.plan.rows)
         self._known = {row.key: row for row in self.rows}
-        self._trouble = ""  # why a file of the present mesh is missing
+        self._counts = 0, 0  # vertices and faces of the present mesh
+        self._trouble = ""  # why a file of it is missing
 
     def run(self) -> Iterator[Row]:
         """Each new row as it comes."""
@@ -101,22 +92,19 @@ class Runner:
         if not open_:
             return
         made = self._made(family, size, any(c.group == "limit" for _, c in open_))
-        counts = size, 0
-        if made["mesh"].exists():
-            with np.load(made["mesh"]) as arrays:
-                counts = len(arrays["V"]), len(arrays["F"])
         for repeat, contestant in open_:
             if repeat and self._known[family, size, contestant.name, 0].status != "ok":
                 continue
-            row = Row(family, size, *counts, contestant.name, repeat, "skipped", self._hopeless(family, contestant))
+            why = self._hopeless(family, contestant)
+            row = Row(family, size, *self._counts, contestant.name, repeat, "skipped", why)
             if not row.note:
                 self._measure(row, contestant, made)
             append_row(self.plan.rows, row)
             self.rows.append(row)
             self._known[row.key] = row
             yield row
-        for path in made.values():
-            path.unlink(missing_ok=True)
+        for name in ("mesh", "mesh matrix"):
+            made[name].unlink(missing_ok=True)
 
     def _hopeless(self, family: str, contestant: Contestant) -> str:
         """Why not even to try: what happened on a smaller mesh."""
@@ -131,14 +119,17 @@ class Runner:
         """Files of a mesh, of a tiny one, and of their matrices."""
         folder = self.plan.scratch
         tiny = "terrain" if family == "face" else family
-        made = {"mesh": folder / "mesh.npz", "tiny": folder / "tiny.npz"}
+        self._counts = size, 0
+        made = {"mesh": folder / "mesh.npz", "tiny": folder / f"tiny-{tiny}.npz"}
         for name, kind, count in (("mesh", family, size), ("tiny", tiny, TINY)):
             file = [self.plan.face] if kind == "face" else []
-            made[f"{name} matrix"] = folder / f"{name}-matrix.npz"
+            made[f"{name} matrix"] = made[name].with_suffix(".matrix.npz")
             try:
-                self._module("meshes", kind, count, made[name], *file)
-                if with_matrix:
-                    self._module("matrices", made[name], made[f"{name} matrix"])
+                if not made[name].exists():
+                    n, m = map(int, module("meshes", kind, count, made[name], *file).split())
+                    self._counts = self._counts if name == "tiny" else (n, m)
+                if with_matrix and not made[f"{name} matrix"].exists():
+                    module("matrices", made[name], made[f"{name} matrix"])
             except RuntimeError as error:
                 self._trouble = str(error)
         return made
@@ -150,17 +141,18 @@ class Runner:
         if not made[f"mesh{matrix}"].exists() or not made[f"tiny{matrix}"].exists():
             row.status, row.note = "failed", self._trouble
             return
+        map_file = folder / "map.npy"
         job = {
             "module": contestant.module,
             "options": contestant.options,
             "input": str(made[f"mesh{matrix}"]),
             "warm_up": str(made[f"tiny{matrix}"]),
-            "calls": self.plan.calls if row.n <= SMALL else 1,
-            "map": str(folder / "map.npy"),
+            "calls": self.plan.calls if row.size <= SMALL else 1,
+            "map": str(map_file),
             "told": str(folder / "told.json"),
         }
         if self.plan.touch and row.n >= BIG:
-            self._module("touch", self.plan.touch)
+            module("touch", self.plan.touch)
         python = self.plan.blender_python if contestant.blender else sys.executable
         told = child(python, job, folder / "job.json", self.plan.time_limit, self.plan.memory_limit)
         if told["status"] == "not installed":
@@ -169,67 +161,7 @@ class Runner:
             setattr(row, name, value)
         if row.status == "ok" and row.repeat == 0 and contestant.target != "none":
             try:
-                row.quality = json.loads(self._module("quality", made["mesh"], job["map"]))
+                row.quality = json.loads(module("quality", made["mesh"], map_file))
             except RuntimeError as error:
                 row.note = str(error)
-        Path(job["map"]).unlink(missing_ok=True)
-
-    @staticmethod
-    def _module(name: str, *arguments: object) -> str:
-        """Run a module of this package in a process of its own; what it prints."""
-        command = [sys.executable, "-m", f"{PACKAGE}.{name}", *map(str, arguments)]
-        done = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=False)
-        if done.returncode:
-            raise RuntimeError(f"{name}: {last_line(done.stderr) or f'exit code {done.returncode}'}")
-        return done.stdout
-
-
-def child(
-    python: str, job: dict[str, Any], file: Path, time_limit: float, memory_limit: float = 0.0
-) -> dict[str, Any]:
-    """Run the measured process; what it told, or how it ended. The limits are of seconds and of gigabytes, or 0."""
-    told = Path(job["told"])
-    told.unlink(missing_ok=True)
-    file.write_text(json.dumps(job))
-    command = [python, "-m", f"{PACKAGE}.child", str(file)]
-    try:
-        with tempfile.TemporaryFile("w+") as errors:
-            with subprocess.Popen(command, cwd=REPOSITORY, stdout=subprocess.DEVNULL, stderr=errors) as process:
-                over = watched(process, time_limit, memory_limit)
-            errors.seek(0)
-            said = last_line(errors.read())
-    except OSError as error:
-        return {"status": "failed", "note": f"{python}: {error.strerror}"}
-    if over:
-        return {"status": "over", "note": over}
-    if told.exists():
-        return dict(json.loads(told.read_text()))
-    if process.returncode < 0:
-        name = signal.Signals(-process.returncode).name
-        return {"status": "failed", "note": f"crashed ({name}{', out of memory?' if name == 'SIGKILL' else ''})"}
-    return {"status": "failed", "note": said or f"exit code {process.returncode}"}
-
-
-def watched(process: subprocess.Popen[bytes], time_limit: float, memory_limit: float) -> str:
-    """Wait for a process and end it where it goes over a limit; which one, empty where it ended by itself.
-
-    Limits that the system sets make some libraries hang instead of fail, so it is looked at from outside.
-    """
-    end = time.monotonic() + time_limit
-    while True:
-        try:
-            process.wait(timeout=min(WATCH, max(end - time.monotonic(), 0.0)))
-            return ""
-        except subprocess.TimeoutExpired:
-            pass
-        over = f"over {time_limit:g} s" if time.monotonic() >= end else ""
-        if memory_limit and (resident_memory(process.pid) or 0) > memory_limit * 1e9:
-            over = f"over {memory_limit:g} GB"
-        if over:
-            process.kill()
-            return over
-
-
-def last_line(text: str) -> str:
-    """What a program says at its end."""
-    return (text.strip().splitlines() or [""])[-1][:200]
+        map_file.unlink(missing_ok=True)

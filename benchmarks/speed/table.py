@@ -41,7 +41,8 @@ def markdown(rows: list[Row], about: str) -> str:
 def seconds(value: float, like: float | None = None) -> str:
     """Three digits, in ms below a second; in the unit of `like`, without its name, where that is given."""
     small = (value if like is None else like) < 0.9995
-    number = f"{value * 1e3 if small else value:.3g}"
+    value = value * 1e3 if small else value
+    number = f"{value:.0f}" if value >= 99.95 else f"{value:.3g}"
     return number if like is not None else f"{number} {'ms' if small else 's'}"
 
 
@@ -149,7 +150,7 @@ def _stages(rows: list[Row]) -> Lines:
             if not cell:
                 continue
             told = [_first_stage(cell, stage) for stage in names]
-            after = [_spread_median(cell, lambda row, key=key: row.later.get(key, {}).get("seconds")) for key in later]
+            after = [_later(cell, key) for key in later]
             busy = spread(cell, lambda row: row.calls[0]["cpu"] / row.calls[0]["seconds"])
             lines.append(_line([name, f"{n:,}", *told, *after, "" if busy is None else f"{busy.median:.2f}"]))
     return ["### Stages", "", *lines, ""]
@@ -157,6 +158,10 @@ def _stages(rows: list[Row]) -> Lines:
 
 def _first_stage(cell: list[Row], stage: str) -> str:
     return _spread_median(cell, lambda row: row.calls[0]["stages"].get(stage))
+
+
+def _later(cell: list[Row], name: str) -> str:
+    return _spread_median(cell, lambda row: row.later.get(name, {}).get("seconds"))
 
 
 def _spread_median(cell: list[Row], number: Callable[[Row], float | None]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
@@ -20,7 +21,7 @@ def run(arrays: Arrays, stage: Stage, *, ordered: bool) -> Outcome:
     strict.data[indptr[:-1]] = 0.0
     full = (lower + strict.T).tocsc()
     del lower, strict
-    perm = np.arange(n)
+    perm: NDArray[np.integer] = np.arange(n)
     if ordered:
         perm = arrays["perm"]
         full = full[perm][:, perm].tocsc()

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = ["Arrays", "Outcome", "Stage"]
 
-Arrays = dict[str, NDArray[np.generic]]
+Arrays = dict[str, NDArray[Any]]
 """A mesh, ``V`` (n, 3) float64 and ``F`` (m, 3) int64; for the limit a matrix, ``data``, ``indices``, ``indptr``."""
 
 Stage = Callable[[str], None]
