@@ -124,7 +124,7 @@ def test_intrinsic_weights_are_not_negative_and_the_surface_stays(seed: int) -> 
     cot = np.roll(found.cotangents, 1, axis=0).reshape(-1)  # the corner opposite to half-edge c is c + 2
     here, there = cot[inner], cot[found.twin[inner]]
     assert (here + there >= -16 * EPS * (np.abs(here) + np.abs(there) + 1)).all()
-    laplacian = intrinsic_delaunay_edges(surface.corners, surface.edges.twin, surface.geometry, surface.n)
+    laplacian = intrinsic_delaunay_edges(surface.corners, surface.edges, surface.geometry, surface.n)
     on_boundary = np.isin(laplacian.lo, surface.loops[0]) & np.isin(laplacian.hi, surface.loops[0])
     assert laplacian.weights[~on_boundary].min() >= 0
 
@@ -148,7 +148,7 @@ SLIVERS = ["thin tail", "100 slivers below 0.1 degrees", "zero-area faces", "coi
 def test_harmonic_measure_is_not_negative(name: str) -> None:
     """Without clipping: with non-negative weights Cholesky's solution is a sum of non-negative terms."""
     surface = Surface.from_arrays(*nasty_meshes.EMBEDDED[name])
-    laplacian = intrinsic_delaunay_edges(surface.corners, surface.edges.twin, surface.geometry, surface.n)
+    laplacian = intrinsic_delaunay_edges(surface.corners, surface.edges, surface.geometry, surface.n)
     problem = DirichletProblem(laplacian, surface.loops[0], surface.n)
     measure = problem.harmonic_measure(int(problem.interior[0]))
     assert measure.min() >= 0 and measure.sum() == pytest.approx(1.0, abs=1e-9)

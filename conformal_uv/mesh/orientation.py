@@ -13,8 +13,8 @@ __all__ = ["disagreeing_pairs", "face_signs"]
 def disagreeing_pairs(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> NDArray[np.int64]:
     """Half-edges that run in the same direction as their twin, each pair once, (k,)."""
     tail = corners.reshape(-1)
-    h = np.flatnonzero(twin >= 0)
-    return h[(tail[h] == tail[twin[h]]) & (h < twin[h])]
+    h = np.flatnonzero(twin > np.arange(len(twin), dtype=np.int32))
+    return h[tail.take(h) == tail.take(twin.take(h))]
 
 
 def face_signs(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> NDArray[np.int8]:

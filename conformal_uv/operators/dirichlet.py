@@ -58,12 +58,10 @@ class DirichletProblem:
         self._degree = _degrees(laplacian, n)
         self._blocks(inside, number)
         self.backend = choose_backend(backend)
-        positive = laplacian.weights[laplacian.weights > 0.0]
-        wide = len(positive) > 0 and positive.max() > WIDE_SPREAD * float(np.median(positive))
-        self._corrections = CORRECTIONS if wide else 0
+        self._corrections = CORRECTIONS if _spread(laplacian.weights) > WIDE_SPREAD else 0
         self._factor: Factorization | None = None
         if len(self.interior):
-            matrix = interior_matrix(laplacian, boundary, n)
+            matrix = _lower_triangle(laplacian, inside, number, self._degree[self.interior])
             progress("ordering", 0.0)
             order = None
             if points is not None and matrix.n > FEW:
@@ -141,22 +139,27 @@ class DirichletProblem:
 
 
 def interior_matrix(laplacian: EdgeLaplacian, boundary: NDArray[np.int64], n: int) -> LowerTriangle:
-    """Lii: rows and columns of the vertices that are not on the boundary, in their order.
-
-    Sorted edges already stand in the order of its columns.
-    """
+    """Lii: rows and columns of the vertices that are not on the boundary, in their order."""
     inside, interior, number = _numbered(boundary, n)
+    return _lower_triangle(laplacian, inside, number, _degrees(laplacian, n)[interior])
+
+
+def _lower_triangle(
+    laplacian: EdgeLaplacian, inside: NDArray[np.bool_], number: NDArray[np.int32], diagonal: NDArray[np.float64]
+) -> LowerTriangle:
+    """The same. Sorted edges already stand in the order of its columns."""
     lo, hi, weights = laplacian.lo, laplacian.hi, laplacian.weights
-    both = np.flatnonzero(inside[lo] & inside[hi])
-    column, row = number[lo[both]], number[hi[both]]
-    ni = len(interior)
+    both = np.flatnonzero(inside.take(lo) & inside.take(hi))
+    column, row = number.take(lo.take(both)), number.take(hi.take(both))
+    ni = len(diagonal)
     indptr = np.zeros(ni + 1, dtype=np.int64)
     np.cumsum(np.bincount(column, minlength=ni) + 1, out=indptr[1:])
     data = np.empty(indptr[-1])
     indices = np.empty(indptr[-1], dtype=np.int32)
-    place = np.arange(1, len(both) + 1) + column
-    data[place], indices[place] = -weights[both], row
-    data[indptr[:-1]] = _degrees(laplacian, n)[interior]
+    place = np.arange(1, len(both) + 1)
+    place += column
+    data[place], indices[place] = -weights.take(both), row
+    data[indptr[:-1]] = diagonal
     indices[indptr[:-1]] = np.arange(ni, dtype=np.int32)
     return LowerTriangle(data, indices, indptr)
 
@@ -172,6 +175,13 @@ def _numbered(
     number[interior] = np.arange(len(interior), dtype=np.int32)
     number[boundary] = np.arange(len(boundary), dtype=np.int32)
     return inside, interior, number
+
+
+def _spread(weights: NDArray[np.float64]) -> float:
+    """The largest weight over the median of the positive ones, taken from some thousands of them."""
+    some = weights[:: len(weights) // 8192 + 1]
+    some = some[some > 0.0]
+    return float(weights.max() / np.median(some)) if len(some) else 0.0
 
 
 def _degrees(laplacian: EdgeLaplacian, n: int) -> NDArray[np.float64]:

@@ -69,14 +69,12 @@ def edge_laplacian(
     if kind == "cotan":
         check_areas(geometry)
         return cotan_edges(edges, geometry)
-    if len(geometry.degenerate):
-        return intrinsic_delaunay_edges(corners, edges.twin, geometry, n)
-    plain = cotan_edges(edges, geometry)
-    negative = plain.weights < 0.0
-    negative &= edges.count == 2
-    if kind == "auto" and not (plain.weights[negative] < -ROUNDING).any():
-        return plain
-    return intrinsic_delaunay_edges(corners, edges.twin, geometry, n, suspects=np.flatnonzero(negative[edges.edge]))
+    if kind == "auto" and not len(geometry.degenerate):
+        plain = cotan_edges(edges, geometry)
+        if not (plain.weights[edges.count == 2] < -ROUNDING).any():
+            return plain
+        return intrinsic_delaunay_edges(corners, edges, geometry, n, plain)
+    return intrinsic_delaunay_edges(corners, edges, geometry, n)
 
 
 def cotan_edges(edges: HalfEdges, geometry: TriangleGeometry) -> EdgeLaplacian:
@@ -91,47 +89,64 @@ def uniform_edges(edges: HalfEdges) -> EdgeLaplacian:
 
 def intrinsic_delaunay_edges(
     corners: NDArray[np.int32],
-    twin: NDArray[np.int32],
+    edges: HalfEdges,
     geometry: TriangleGeometry,
     n: int,
-    *,
-    suspects: NDArray[np.int64] | None = None,
+    plain: EdgeLaplacian | None = None,
 ) -> EdgeLaplacian:
     """Cotangent weights of the intrinsic Delaunay triangulation: non-negative inside.
 
     Parameters
     ----------
-    suspects : (k,) int64, optional
-        Half-edges that may be not Delaunay as the triangles are; by default all inner ones.
+    plain : EdgeLaplacian, optional
+        The weights of the triangles as they are, where they are at hand. They tell which edges are not Delaunay,
+        and stay where nothing is flipped.
     """
     lengths = geometry.squared_lengths
     np.sqrt(np.maximum(lengths, 0.0, out=lengths), out=lengths)
     safe = mollified(lengths)
-    if safe is not lengths:
-        delaunay = intrinsic_delaunay(corners, safe, twin)
-    else:
-        if suspects is not None:
-            suspects = suspects[suspects < twin[suspects]]
-        delaunay = intrinsic_delaunay(corners, lengths, twin, geometry=geometry, suspects=suspects)
-    return _edges_of(delaunay, n)
+    if safe is not lengths or len(geometry.degenerate):
+        delaunay = intrinsic_delaunay(corners, safe, edges.twin)
+        return _sorted(*_edges_around(delaunay, np.arange(corners.shape[1])), n)
+    plain = plain or cotan_edges(edges, geometry)
+    negative = (plain.weights < 0.0) & (edges.count == 2)
+    suspects = np.flatnonzero(negative[edges.edge])
+    suspects = suspects[suspects < edges.twin[suspects]]
+    delaunay = intrinsic_delaunay(corners, lengths, edges.twin, geometry=geometry, suspects=suspects)
+    stays = np.ones(len(edges.lo), dtype=bool)
+    stays[edges.edge.reshape(corners.shape)[:, delaunay.changed]] = False
+    weights = np.where(negative, 0.0, plain.weights)[stays]  # Delaunay to rounding, where nothing was flipped
+    lo, hi, fresh = _edges_around(delaunay, delaunay.changed)
+    lo, hi = np.concatenate((edges.lo[stays], lo)), np.concatenate((edges.hi[stays], hi))
+    return _sorted(lo, hi, np.concatenate((weights, fresh)), n)
 
 
-def _edges_of(delaunay: IntrinsicTriangulation, n: int) -> EdgeLaplacian:
-    """Half the sum of the cotangents opposite to each edge, edges between the same two vertices taken together."""
-    corners, twin = delaunay.corners, delaunay.twin
-    one = np.flatnonzero((twin < 0) | (np.arange(len(twin), dtype=np.int32) < twin))
-    tail, head = corners.reshape(-1).take(one), corners[[1, 2, 0]].reshape(-1).take(one)
-    proper = tail != head  # an edge from a vertex to itself carries nothing
-    if not proper.all():
-        one, tail, head = one[proper], tail[proper], head[proper]
-    opposite = delaunay.cotangents[[2, 0, 1]].reshape(-1)  # the corner opposite to half-edge c is c + 2
-    other = twin.take(one)
+def _edges_around(
+    delaunay: IntrinsicTriangulation, faces: NDArray[np.int64]
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]:
+    """Both vertices of the edges of some of the faces, and half the sum of the cotangents opposite to each edge."""
+    corners, cot, m = delaunay.corners, delaunay.cotangents, delaunay.corners.shape[1]
+    here = np.zeros(m, dtype=bool)
+    here[faces] = True
+    half_edge = (np.arange(3)[:, None] * m + faces).reshape(-1)
+    other = delaunay.twin.take(half_edge)
+    told = (other >= 0) & (other < half_edge) & here.take(other % m)  # by the face on the other side
+    tail = corners.take(faces, axis=1)
+    lo, hi = tail.reshape(-1), tail[[1, 2, 0]].reshape(-1)
+    weights = cot.take(faces, axis=1)[[2, 0, 1]].reshape(-1)  # the corner opposite to half-edge c is c + 2
     inner = other >= 0
-    weights = opposite.take(one)
-    weights += np.where(inner, opposite.take(other), 0.0)  # -1, on the boundary, takes the last, for nothing
+    weights += np.where(inner, cot.reshape(-1).take((other + 2 * m) % (3 * m)), 0.0)
     weights *= 0.5
     weights[inner & (weights < 0.0)] = 0.0  # Delaunay to rounding: the four vertices lie on a circle
-    lo, hi = np.minimum(tail, head), np.maximum(tail, head)
+    taken = ~told & (lo != hi)  # an edge from a vertex to itself carries nothing
+    lo, hi = lo[taken], hi[taken]
+    return np.minimum(lo, hi), np.maximum(lo, hi), weights[taken]
+
+
+def _sorted(
+    lo: NDArray[np.int32], hi: NDArray[np.int32], weights: NDArray[np.float64], n: int
+) -> EdgeLaplacian:
+    """The edges in order, those between the same two vertices taken together."""
     order = sorted_pairs(lo, hi, n)
     lo, hi, weights = lo.take(order), hi.take(order), weights.take(order)
     again = np.flatnonzero((lo[1:] == lo[:-1]) & (hi[1:] == hi[:-1])) + 1
@@ -139,4 +154,3 @@ def _edges_of(delaunay: IntrinsicTriangulation, n: int) -> EdgeLaplacian:
         first = np.delete(np.arange(len(lo)), again)
         lo, hi, weights = lo[first], hi[first], np.add.reduceat(weights, first)
     return EdgeLaplacian(lo, hi, weights, "intrinsic-delaunay")
-

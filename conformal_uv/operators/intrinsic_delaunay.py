@@ -38,6 +38,8 @@ class IntrinsicTriangulation:
         As in HalfEdges.
     cotangents : (3, m) float64
         Of every corner's angle.
+    changed : (k,) int64
+        Faces that are not as they were.
     flips : int
         Edges flipped to get here.
     """
@@ -46,6 +48,7 @@ class IntrinsicTriangulation:
     lengths: Real
     twin: Index
     cotangents: Real
+    changed: NDArray[np.int64]
     flips: int
 
 
@@ -87,7 +90,9 @@ def intrinsic_delaunay(
     for _ in range(MOST_ROUNDS):
         bad, sums = work.not_delaunay(candidates)
         if not len(bad):
-            return IntrinsicTriangulation(work.corners, work.lengths, work.twin, work.cot, work.flips)
+            return IntrinsicTriangulation(
+                work.corners, work.lengths, work.twin, work.cot, np.flatnonzero(work.touched), work.flips
+            )
         chosen = work.independent(bad, sums)
         candidates = work.flip(bad[chosen], bad[~chosen])
     raise SolverError(
@@ -103,6 +108,7 @@ class _Flipper:
         self.corners, self.lengths, self.twin, self.cot = corners, lengths, twin, cot
         self.m = corners.shape[1]
         self.flips = 0
+        self.touched = np.zeros(self.m, dtype=bool)
         self._area2 = area2
         self._moved = np.full(3 * self.m, -1, dtype=np.int32)
         self._rank = np.empty(self.m, dtype=np.int64)
@@ -154,15 +160,20 @@ class _Flipper:
         outside = self._followed(outside)
         waiting = self._followed(waiting)
         self._moved[old] = -1
-        self.corners[:, f], self.corners[:, g] = (d, b, c), (c, a, d)
-        self.lengths[:, f], self.lengths[:, g] = (l_db, l_bc, l_cd), (l_ca, l_ad, l_cd)
+        corner[f], corner[g] = d, c
+        corner[f + m], corner[g + m] = b, a
+        corner[f + 2 * m], corner[g + 2 * m] = c, d
+        length[new], length[f + 2 * m], length[g + 2 * m] = np.concatenate((l_db, l_bc, l_ca, l_ad)), l_cd, l_cd
         self.twin[new] = outside
         inner = outside >= 0
         self.twin[outside[inner]] = new[inner]
         self.twin[f + 2 * m], self.twin[g + 2 * m] = g + 2 * m, f + 2 * m
 
-        touched = np.concatenate((f, g))
-        self._area2[touched], self.cot[:, touched] = _areas_and_cotangents(self.lengths[:, touched])
+        both = np.concatenate((f, g))
+        area2, cot = _areas_and_cotangents(self.lengths[:, both])
+        self._area2[both], self.touched[both] = area2, True
+        for c in range(3):
+            self.cot[c, both] = cot[c]
         self.flips += len(h)
         following = np.concatenate((waiting, new[inner]))
         following = np.sort(np.minimum(following, self.twin[following]))

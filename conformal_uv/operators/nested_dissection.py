@@ -1,8 +1,8 @@
 """A fill-reducing order of a surface's vertices, from their positions: nested dissection.
 
 A. George, "Nested dissection of a regular finite element mesh", 1973: vertices that part a mesh in two are eliminated
-after both parts, and so on within each part. Here the parts are those of a k-d tree over the positions (median cuts
-across the longer extent), and all its separators come out at once. With the cells of the tree numbered so that each
+after both parts, and so on within each part. Here the parts are those of a k-d tree over the positions (cut in the
+middle across the longer extent), and all its separators come out at once. With the cells of the tree numbered so that each
 bit tells a side of a cut, an edge is cut where the numbers of its ends first differ, so a vertex separates its cell as
 soon as some neighbour has a number that differs there and is larger.
 """
@@ -18,7 +18,8 @@ Index = NDArray[np.int32]
 Cells = NDArray[np.int64]
 
 LEAF = 16  # vertices of a cell that is not cut any further
-SAMPLES = 32  # vertices of a cell, about, from which its median is taken
+SAMPLES = 16  # vertices of a cell, about, that tell where to cut it
+FEW = 1024  # cells
 RESOLUTION = 30  # bits of a coordinate
 MOST_LEVELS = 30  # so that numbers of cells fit into 32 bits
 WORST = 30.0  # work of the elimination, over that of cells of n vertices being cut by sqrt(n)
@@ -68,23 +69,29 @@ def _cells(points: NDArray[np.float64], levels: int) -> Cells:
     for level in range(levels):
         count = SAMPLES << level
         chosen = here if count >= n else (np.arange(count) * step) % n  # spread evenly, in step with no grid
-        axis, median = _cuts(grid.take(chosen, axis=1), cell.take(chosen), 1 << level)
+        axis, middle = _cuts(grid.take(chosen, axis=1), cell.take(chosen), 1 << level)
         coordinate = flat.take((axis * n).take(cell) + here)
         cell <<= 1
-        cell += coordinate > median.take(cell >> 1)
+        cell += coordinate > middle.take(cell >> 1)
     return cell
 
 
 def _cuts(grid: NDArray[np.int32], cell: Cells, cells: int) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
-    """For each cell the axis of widest spread and the median along it."""
+    """For each cell the axis of widest spread, and where to cut it.
+
+    That is the median while cells are few; the mean, which is as good where the vertices have become evenly spread
+    and needs no sort, when they are many.
+    """
     count = np.bincount(cell, minlength=cells)
     share = 1.0 / np.maximum(count, 1)
-    spread = np.empty((len(grid), cells))
+    spread, mean = np.empty((len(grid), cells)), np.empty((len(grid), cells))
     for axis, x in enumerate(grid.astype(np.float64)):
-        mean = share * np.bincount(cell, weights=x, minlength=cells)
-        x -= mean.take(cell)
+        mean[axis] = share * np.bincount(cell, weights=x, minlength=cells)
+        x -= mean[axis].take(cell)
         spread[axis] = np.bincount(cell, weights=np.abs(x, out=x), minlength=cells)
     widest = np.argmax(spread, axis=0)
+    if cells > FEW:
+        return widest, mean[widest, np.arange(cells)].astype(np.int32)
     key = grid.reshape(-1).take((widest * len(cell)).take(cell) + np.arange(len(cell)))
     key = (cell << RESOLUTION) | key
     key.sort()
