@@ -99,7 +99,7 @@ def compute_texcoord_parametrization_conformal_disk(
     margin : Float
         Least distance between disks and to the sides of the square; by default none for one disk, 0.005 for several.
     backend : Enum
-        'auto', 'cholmod', 'superlu'.
+        'auto', 'cholmod', 'superlu', 'multigrid'.
     texture : File Name
         Image to link, for all faces.
     quality : Enum

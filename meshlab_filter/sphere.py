@@ -59,7 +59,7 @@ def compute_coord_conformal_sphere(
     laplacian : Enum
         'auto', 'cotan', 'intrinsic-delaunay'.
     backend : Enum
-        'auto', 'cholmod', 'superlu'.
+        'auto', 'cholmod', 'superlu', 'multigrid'.
     quality : Enum
         Per-face scalar to write: 'none', 'angle' (mean angle error, degrees), 'quasi-conformal'.
     callback : callable

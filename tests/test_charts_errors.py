@@ -69,12 +69,12 @@ def test_faces_without_area_are_mapped_by_default():
 def test_solver_errors_belong_to_their_chart(monkeypatch):
     from conformal_uv.operators import dirichlet
 
-    def failing(matrix, *rest, _real=dirichlet.factorize):
+    def failing(matrix, *rest, _real=dirichlet.linear_solver):
         if matrix.n > 2:
             raise SolverError("singular")
         return _real(matrix, *rest)
 
-    monkeypatch.setattr(dirichlet, "factorize", failing)
+    monkeypatch.setattr(dirichlet, "linear_solver", failing)
     V, Q = side_by_side(1)
     W, R = grid(4, 4)
     u = unwrap(np.concatenate((V, W)), np.concatenate((Q, R + len(V))))

@@ -461,13 +461,13 @@ def test_mapper_asked_again_gives_the_one_shot_map(monkeypatch: pytest.MonkeyPat
     """
     expected = [cuv.disk_map(*MASK, laplacian="cotan", **options) for options in ASKED_AGAIN]
     made = []
-    original = dirichlet.factorize
+    original = dirichlet.linear_solver
 
     def counting(*args, **kwargs):
         made.append(args[0].n)
         return original(*args, **kwargs)
 
-    monkeypatch.setattr(dirichlet, "factorize", counting)
+    monkeypatch.setattr(dirichlet, "linear_solver", counting)
     mapper = cuv.DiskMapper(*MASK, laplacian="cotan")
     for options, one_shot in zip(ASKED_AGAIN, expected, strict=True):
         again = mapper.map(**options)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 from pathlib import Path
 
@@ -12,9 +13,10 @@ import conformal_uv as cuv
 from conformal_uv import samples
 from conformal_uv.errors import CancelledError, MissingDependencyError, SolverError
 from conformal_uv.mesh import Surface
-from conformal_uv.operators import DirichletProblem, dirichlet, memory, multigrid
-from conformal_uv.operators.cholesky import LowerTriangle, factorize
+from conformal_uv.operators import DirichletProblem, backends, dirichlet, memory, multigrid
+from conformal_uv.operators.backends import linear_solver
 from conformal_uv.operators.edge_laplacian import EdgeLaplacian, edge_laplacian
+from conformal_uv.operators.linear_system import LowerTriangle
 from conformal_uv.operators.multigrid import Multigrid
 from conformal_uv.progress import Progress
 
@@ -34,23 +36,13 @@ def matrix() -> LowerTriangle:
     return dirichlet.interior_matrix(laplacian, surface.require_disk(), surface.n)
 
 
-@pytest.fixture
-def by_multigrid(monkeypatch: pytest.MonkeyPatch):
-    """A function that makes DirichletProblem solve by multigrid from then on."""
-
-    def switch() -> None:
-        monkeypatch.setattr(dirichlet, "factorize", lambda A, backend, progress, order=None: Multigrid(A, progress))
-
-    return switch
-
-
 @pytest.mark.parametrize("shape", [(), (1,), (3,)])
 def test_solution_is_the_direct_one(matrix: LowerTriangle, shape: tuple[int, ...]) -> None:
     """For one and for several right-hand sides, which stay as they were."""
     solver = Multigrid(matrix, Progress())
     rhs = np.random.default_rng(3).normal(size=(matrix.n, *shape))
     kept = rhs.copy()
-    x, expected = solver.solve(rhs), factorize(matrix).solve(rhs)
+    x, expected = solver.solve(rhs), linear_solver(matrix).solve(rhs)
     assert solver.backend == "multigrid"
     assert x.shape == rhs.shape
     assert np.abs(x - expected).max() <= 1e-11 * np.abs(expected).max()
@@ -93,11 +85,11 @@ def test_smallest_matrices(lower: list[float]) -> None:
 
 
 @pytest.mark.parametrize("method", ["linear", "newton"])
-def test_map_is_that_of_the_direct_solver(by_multigrid, method: str) -> None:
+def test_map_is_that_of_the_direct_solver(method: str) -> None:
     V, F = samples.terrain(10000)
     direct = cuv.disk_map(V, F, method=method)
-    by_multigrid()
-    iterative = cuv.disk_map(V, F, method=method)
+    iterative = cuv.disk_map(V, F, method=method, backend="multigrid")
+    assert iterative.backend == "multigrid" and direct.backend != "multigrid"
     assert iterative.converged
     assert iterative.center == direct.center
     assert np.abs(iterative.uv - direct.uv).max() < SAME
@@ -105,24 +97,23 @@ def test_map_is_that_of_the_direct_solver(by_multigrid, method: str) -> None:
 
 @pytest.mark.parametrize("laplacian", ["cotan", "intrinsic-delaunay"])
 @pytest.mark.parametrize("method", ["linear", "newton"])
-def test_map_of_a_scan_is_that_of_the_direct_solver(load_scan, by_multigrid, method: str, laplacian: str) -> None:
+def test_map_of_a_scan_is_that_of_the_direct_solver(load_scan, method: str, laplacian: str) -> None:
     """A face of thin triangles, with negative weights and without; Newton comes to its own tolerance."""
     V, F = load_scan("scans/human_face.obj")
     direct = cuv.disk_map(V, F, method=method, laplacian=laplacian)
-    by_multigrid()
-    iterative = cuv.disk_map(V, F, method=method, laplacian=laplacian)
+    iterative = cuv.disk_map(V, F, method=method, laplacian=laplacian, backend="multigrid")
+    assert iterative.backend == "multigrid" and direct.backend != "multigrid"
     assert iterative.converged
     assert iterative.center == direct.center
     assert np.abs(iterative.uv - direct.uv).max() < SAME
 
 
-def test_harmonic_measure_from_next_to_the_boundary(by_multigrid) -> None:
+def test_harmonic_measure_from_next_to_the_boundary() -> None:
     """A single delta as right-hand side, where almost all of the measure falls to few vertices."""
     surface, laplacian = surface_and_laplacian(4000)
     boundary = surface.require_disk()
     direct = DirichletProblem(laplacian, boundary, surface.n)
-    by_multigrid()
-    iterative = DirichletProblem(laplacian, boundary, surface.n)
+    iterative = DirichletProblem(laplacian, boundary, surface.n, backend="multigrid")
     for vertex in (int(direct.interior[0]), int(direct.interior[len(direct.interior) // 2])):
         measure = iterative.harmonic_measure(vertex)
         assert abs(measure.sum() - 1.0) < 1e-10
@@ -142,7 +133,7 @@ def test_cancel_inside_a_solve(matrix: LowerTriangle) -> None:
     with pytest.raises(CancelledError, match="conjugate gradients"):
         solver.solve(np.ones(matrix.n))
     assert len(seen) == solver.steps == 3
-    solver.progress = Progress()
+    solver.report_to(Progress())
     assert solver.solve(np.ones(matrix.n)).min() > 0.0
 
 
@@ -156,6 +147,41 @@ def test_progress_of_all_right_hand_sides_together(matrix: LowerTriangle) -> Non
     assert fractions == sorted(fractions) and fractions[-1] == 1.0
 
 
+def test_a_mapper_reports_to_whoever_asks_now() -> None:
+    """The solver that is kept forgets the first callback, and obeys the second one's cancel inside a solution."""
+    first: list[str] = []
+    mapper = cuv.DiskMapper(*samples.terrain(2000), backend="multigrid")
+    mapper.map(method="linear", callback=lambda stage, _: first.append(stage))
+    told = len(first)
+    assert "conjugate gradients" in first
+    with pytest.raises(CancelledError, match="conjugate gradients"):
+        mapper.map(method="newton", callback=lambda stage, _: stage != "conjugate gradients")
+    assert len(first) == told
+    assert mapper.map(method="newton").converged
+
+
+def test_multigrid_where_a_factorization_does_not_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By itself only; what the caller or the environment names is obeyed."""
+    V, F = samples.terrain(500)
+    monkeypatch.delenv("CONFORMAL_UV_BACKEND", raising=False)
+    monkeypatch.setattr(backends, "factorization_fits", lambda n, backend: False)
+    assert cuv.disk_map(V, F, method="linear").backend == "multigrid"
+    assert cuv.disk_map(V, F, method="linear", backend="superlu").backend == "superlu"
+    monkeypatch.setenv("CONFORMAL_UV_BACKEND", "superlu")
+    assert cuv.disk_map(V, F, method="linear").backend == "superlu"
+
+
+def test_without_pyamg_a_factorization_is_tried_all_the_same(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.delenv("CONFORMAL_UV_BACKEND", raising=False)
+    monkeypatch.setattr(backends, "factorization_fits", lambda n, backend: False)
+    real = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name, *a: None if name == "pyamg" else real(name, *a))
+    assert cuv.disk_map(*samples.terrain(500), method="linear").backend in ("cholmod", "superlu")
+    assert "may not fit into memory" in caplog.text
+
+
 def test_no_convergence_is_typed(matrix: LowerTriangle, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(multigrid, "MOST_STEPS", 3)
     with pytest.raises(SolverError, match=r"stopped after 3 steps at a relative error of .*cholmod"):
@@ -167,7 +193,7 @@ def test_rounding_above_the_tolerance_is_accepted(matrix: LowerTriangle, monkeyp
     monkeypatch.setattr(multigrid, "ROUNDING", 0.0)
     monkeypatch.setattr(multigrid, "MOST_STEPS", 40)
     solver = Multigrid(matrix, Progress())
-    x, expected = solver.solve(np.ones(matrix.n)), factorize(matrix).solve(np.ones(matrix.n))
+    x, expected = solver.solve(np.ones(matrix.n)), linear_solver(matrix).solve(np.ones(matrix.n))
     assert solver.steps == 40
     assert np.abs(x - expected).max() <= 1e-12 * np.abs(expected).max()
 

@@ -18,8 +18,10 @@ from scipy.sparse import diags_array
 import conformal_uv as cuv
 from conformal_uv import samples
 from conformal_uv.mesh import Surface
-from conformal_uv.operators import DirichletProblem, cholesky
+from conformal_uv.operators import DirichletProblem, backends
+from conformal_uv.operators.backends import choose_backend, linear_solver
 from conformal_uv.operators.edge_laplacian import cotan_edges
+from conformal_uv.operators.linear_system import LowerTriangle
 from conformal_uv.operators.wirtinger import conformal_energy, enclosed_area
 
 EPS = np.finfo(float).eps
@@ -465,10 +467,10 @@ def test_a_collapsed_face_keeps_no_angle() -> None:
 # --- linear solves ------------------------------------------------------------------------------------------
 
 
-def lower_triangle(A: NDArray) -> cholesky.LowerTriangle:
+def lower_triangle(A: NDArray) -> LowerTriangle:
     """A dense symmetric matrix in the form that is factorized."""
     rows = [np.concatenate(([j], j + 1 + np.flatnonzero(A[j + 1 :, j]))) for j in range(len(A))]
-    return cholesky.LowerTriangle(
+    return LowerTriangle(
         np.concatenate([A[r, j] for j, r in enumerate(rows)]),
         np.concatenate(rows).astype(np.int32),
         np.concatenate(([0], np.cumsum([len(r) for r in rows]))),
@@ -484,7 +486,7 @@ def test_backend_solves(backend: str) -> None:
     rng = np.random.default_rng(12)
     B = rng.normal(size=(40, 40)) * (rng.random((40, 40)) < 0.1)
     A = B @ B.T + 3.0 * np.eye(40)
-    factor = cholesky.factorize(lower_triangle(A), backend)
+    factor = linear_solver(lower_triangle(A), backend)
     assert factor.backend == backend
     bound = 40 * EPS * np.linalg.cond(A)
     for shape in ((40,), (40, 2)):
@@ -498,10 +500,25 @@ def test_backend_solves(backend: str) -> None:
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
+def test_backend_solves_for_a_few_rows(backend: str) -> None:
+    """As for the whole right-hand sides; entries that come out 0 on a block of their own among them."""
+    A = np.zeros((30, 30))
+    A[:20, :20] = 4.0 * np.eye(20) - np.eye(20, k=1) - np.eye(20, k=-1)
+    A[20:, 20:] = 2.0 * np.eye(10)
+    solver = linear_solver(lower_triangle(A), backend)
+    rows = np.array([1, 5, 22])
+    for k in (1, 2, 5):
+        values = np.random.default_rng(k).normal(size=(3, k))
+        rhs = np.zeros((30, k))
+        rhs[rows] = values
+        np.testing.assert_allclose(solver.solve_at(rows, values), solver.solve(rhs), rtol=0, atol=8 * EPS)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
 def test_singular_matrix_is_refused(backend: str) -> None:
     A = np.diag([2.0, 0.0, 1.0])
     with pytest.raises(cuv.SolverError, match="singular to working precision") as caught:
-        cholesky.factorize(lower_triangle(A), backend)
+        linear_solver(lower_triangle(A), backend)
     assert isinstance(caught.value, RuntimeError)
 
 
@@ -515,7 +532,7 @@ def test_choice_of_backend(monkeypatch: pytest.MonkeyPatch) -> None:
     if HAS_CHOLMOD:
         assert cuv.disk_map(V, F, backend="cholmod").backend == "cholmod"  # the option goes first
     monkeypatch.setenv("CONFORMAL_UV_BACKEND", "pardiso")
-    with pytest.raises(cuv.OptionError, match="'pardiso'; choose auto, cholmod or superlu"):
+    with pytest.raises(cuv.OptionError, match="'pardiso'; choose auto, cholmod, superlu or multigrid"):
         cuv.disk_map(V, F)
     with pytest.raises(cuv.OptionError, match="'umfpack'"):
         cuv.disk_map(V, F, backend="umfpack")
@@ -523,10 +540,10 @@ def test_choice_of_backend(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_backends_without_cvxopt(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("CONFORMAL_UV_BACKEND", raising=False)
-    monkeypatch.setattr(cholesky.importlib.util, "find_spec", lambda name: None)
-    assert cholesky.choose_backend() == "superlu"
+    monkeypatch.setattr(backends.importlib.util, "find_spec", lambda name: None)
+    assert choose_backend() == "superlu"
     with pytest.raises(cuv.MissingDependencyError, match="pip install cvxopt"):
-        cholesky.choose_backend("cholmod")
+        choose_backend("cholmod")
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

@@ -52,6 +52,7 @@ class Backend(StrEnum):
     AUTO = "auto"
     CHOLMOD = "cholmod"
     SUPERLU = "superlu"
+    MULTIGRID = "multigrid"
 
 
 class Laplacian(StrEnum):

@@ -71,8 +71,10 @@ def disk_map(
     repair : {"auto", "never"}
         Where triangles came out folded, "auto" restores an embedding by positive weights around them; see
         `DiskMap.repair` for what it cost. "never" leaves them; so does the augmented Lagrangian always.
-    backend : {"auto", "cholmod", "superlu"}
-        Factorization; "auto" obeys the environment variable CONFORMAL_UV_BACKEND.
+    backend : {"auto", "cholmod", "superlu", "multigrid"}
+        Library of the linear solver. "auto" obeys the environment variable CONFORMAL_UV_BACKEND; without it, it is a
+        factorization by CHOLMOD, or by SuperLU where that is not installed, and multigrid (with
+        ``conformal-uv[large]``) where a factorization would not fit into memory.
     callback : callable, optional
         Called as ``callback(stage, fraction)``; the work stops with CancelledError when it returns False.
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import OptionError
 from ..mesh.surface import Surface
-from ..operators.cholesky import choose_backend
+from ..operators.backends import choose_backend
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, edge_laplacian
 from ..operators.orientation_sign import flipped_faces
@@ -54,6 +54,7 @@ class DiskMapper:
         if laplacian not in LAPLACIANS:
             raise OptionError(f"laplacian is {laplacian!r}; choose {', '.join(LAPLACIANS)}.")
         self.backend = choose_backend(backend)
+        self._backend = backend
         self._laplacian = laplacian
         Progress(callback)("checks", 0.0)
         self.surface = Surface.from_arrays(V, F)
@@ -119,7 +120,7 @@ class DiskMapper:
 
     def _solve(self, options: DiskOptions, progress: Progress) -> Solution:
         if options.method == "augmented-lagrangian":
-            return solve_augmented_lagrangian(self.surface, self.boundary, options, self.backend, progress)
+            return solve_augmented_lagrangian(self.surface, self.boundary, options, self._backend, progress)
         problem, measure = self._problem(options, progress)
         if options.method == "linear":
             return solve_linear(problem, measure)
@@ -138,10 +139,12 @@ class DiskMapper:
             progress("assembly", 0.0)
             laplacian = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, kind)
             problem = DirichletProblem(
-                laplacian, self.boundary, surface.n, points=surface.V, backend=self.backend, progress=progress
+                laplacian, self.boundary, surface.n, points=surface.V, backend=self._backend, progress=progress
             )
             progress("linear", 0.0)
             self._factorized[kind] = problem, centred_measure(surface, problem)
+        else:
+            self._factorized[kind][0].report_to(progress)
         return self._factorized[kind]
 
     def _placed(

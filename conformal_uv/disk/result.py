@@ -137,7 +137,7 @@ def disk_map_result(
         laplacian="cotan" if solution.problem is None else solution.problem.laplacian.kind,
         center=center,
         pins=options.pins,
-        backend=backend,
+        backend=backend if solution.problem is None else solution.problem.backend,
         surface=surface,
     )
 

@@ -1,106 +1,22 @@
-"""Factorizations of sparse symmetric positive definite matrices.
-
-CHOLMOD (through cvxopt, supernodal) where it is installed, else scipy's SuperLU in symmetric mode.
-"""
+"""Factorizations of sparse symmetric positive definite matrices, by CHOLMOD (through cvxopt) and by scipy's SuperLU."""
 
 from __future__ import annotations
-
-import importlib.util
-import os
-from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
-from ..errors import MissingDependencyError, OptionError, SolverError
+from ..errors import SolverError
 from ..progress import Progress
+from .linear_system import LowerTriangle
 
-__all__ = ["BACKENDS", "Factorization", "LowerTriangle", "choose_backend", "factorize"]
-
-BACKENDS = ("cholmod", "superlu")
-ENVIRONMENT_VARIABLE = "CONFORMAL_UV_BACKEND"
+__all__ = ["Cholmod", "SuperLU"]
 
 
-@dataclass(frozen=True, eq=False)
-class LowerTriangle:
-    """The lower triangle of a symmetric (n, n) matrix in CSC form, rows sorted, diagonal first."""
+class Cholmod:
+    """Supernodal Cholesky factorization by CHOLMOD. Symbolic and numeric work can not be interrupted."""
 
-    data: NDArray[np.float64]
-    indices: NDArray[np.int32]
-    indptr: NDArray[np.int64]
-
-    @property
-    def n(self) -> int:
-        """Order of the matrix."""
-        return len(self.indptr) - 1
-
-
-class Factorization(Protocol):
-    """A factorized matrix."""
-
-    backend: str
-
-    def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Solution for right-hand sides (n,) or (n, k)."""
-        ...
-
-
-def choose_backend(backend: str = "auto") -> str:
-    """Name of the factorization library to use.
-
-    "auto" takes what the environment variable CONFORMAL_UV_BACKEND names, else CHOLMOD where it is installed,
-    else SuperLU.
-
-    Raises
-    ------
-    OptionError
-        An unknown name.
-    MissingDependencyError
-        "cholmod" without cvxopt.
-    """
-    name = backend
-    if name == "auto":
-        name = os.environ.get(ENVIRONMENT_VARIABLE, "").strip().lower() or "auto"
-    available = importlib.util.find_spec("cvxopt") is not None
-    if name == "auto":
-        return "cholmod" if available else "superlu"
-    if name not in BACKENDS:
-        raise OptionError(f"Unknown backend {name!r}; choose auto, {' or '.join(BACKENDS)}.")
-    if name == "cholmod" and not available:
-        raise MissingDependencyError('The backend "cholmod" needs cvxopt: pip install cvxopt, or use "superlu".')
-    return name
-
-
-def factorize(
-    matrix: LowerTriangle,
-    backend: str = "auto",
-    progress: Progress | None = None,
-    order: NDArray[np.int32] | None = None,
-) -> Factorization:
-    """Factorize a symmetric positive definite matrix.
-
-    Parameters
-    ----------
-    matrix : LowerTriangle
-    backend : {"auto", "cholmod", "superlu"}
-    order : (n,) int32, optional
-        In which to eliminate the unknowns; by default the library looks for one (CHOLMOD by approximate minimum
-        degree, SuperLU by multiple minimum degree).
-
-    Raises
-    ------
-    SolverError
-        The matrix is singular to working precision.
-    """
-    progress = progress or Progress()
-    name = choose_backend(backend)
-    return (_Cholmod if name == "cholmod" else _SuperLU)(matrix, progress, order)
-
-
-class _Cholmod:
     backend = "cholmod"
 
     def __init__(self, matrix: LowerTriangle, progress: Progress, order: NDArray[np.int32] | None) -> None:
@@ -111,7 +27,7 @@ class _Cholmod:
         rows = matrix.indices.astype(np.int64)
         lower = spmatrix(dense(matrix.data), dense(rows), dense(columns), (matrix.n, matrix.n))
         del columns, rows
-        self._dense, self._cholmod = dense, cholmod
+        self._n, self._dense, self._sparse, self._cholmod = matrix.n, dense, spmatrix, cholmod
         if order is None:
             self._factor = cholmod.symbolic(lower, uplo="L")
         else:
@@ -133,8 +49,27 @@ class _Cholmod:
         self._cholmod.solve(self._factor, columns)
         return np.array(columns).reshape(rhs.shape)
 
+    def solve_at(self, rows: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """CHOLMOD takes the columns of a sparse right-hand side together, dense ones one after the other."""
+        n, k = self._n, values.shape[1]
+        columns = np.repeat(np.arange(k), len(rows))
+        entries = self._dense(np.ascontiguousarray(values.T).reshape(-1))
+        sparse = self._sparse(entries, self._dense(np.tile(rows, k)), self._dense(columns), (n, k))
+        found = self._cholmod.spsolve(self._factor, sparse)
+        out = np.array(found.V).reshape(-1)
+        if len(out) < n * k:  # entries that came out 0 are left out
+            full = np.zeros(n * k)
+            full[np.array(found.I).reshape(-1) + n * np.array(found.J).reshape(-1)] = out
+            out = full
+        return out.reshape(k, n).T
 
-class _SuperLU:
+    def report_to(self, progress: Progress) -> None:
+        """Solutions are too fast to tell of."""
+
+
+class SuperLU:
+    """LU factorization by SuperLU in its symmetric mode, without pivoting. It can not be interrupted."""
+
     backend = "superlu"
 
     def __init__(self, matrix: LowerTriangle, progress: Progress, order: NDArray[np.int32] | None) -> None:
@@ -171,6 +106,15 @@ class _SuperLU:
         out = np.empty_like(rhs)
         out[self._order] = self._factor.solve(rhs[self._order])
         return out
+
+    def solve_at(self, rows: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """As dense right-hand sides, which SuperLU takes together."""
+        rhs = np.zeros((self._factor.shape[0], values.shape[1]))
+        rhs[rows] = values
+        return self.solve(rhs)
+
+    def report_to(self, progress: Progress) -> None:
+        """Solutions are too fast to tell of."""
 
 
 def _singular(n: int, error: Exception) -> SolverError:

@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from ..progress import Progress
-from .cholesky import Factorization, LowerTriangle, choose_backend, factorize
+from .backends import choose_backend, linear_solver
 from .edge_laplacian import EdgeLaplacian
+from .linear_system import LinearSolver, LowerTriangle
 from .nested_dissection import nested_dissection
 
 __all__ = ["DirichletProblem", "interior_matrix"]
@@ -31,7 +32,8 @@ class DirichletProblem:
         Number of vertices.
     points : (n, d) float64, optional
         Positions of the vertices. They speed up the factorization: the order of elimination is read off them.
-    backend : {"auto", "cholmod", "superlu"}
+    backend : {"auto", "cholmod", "superlu", "multigrid"}
+        The attribute of this name says what it came to.
     progress : Progress, optional
 
     Raises
@@ -59,14 +61,15 @@ class DirichletProblem:
         self._blocks(inside, number)
         self.backend = choose_backend(backend)
         self._corrections = CORRECTIONS if _spread(laplacian.weights) > WIDE_SPREAD else 0
-        self._factor: Factorization | None = None
+        self._solver: LinearSolver | None = None
         if len(self.interior):
             matrix = _lower_triangle(laplacian, inside, number, self._degree[self.interior])
             progress("ordering", 0.0)
             order = None
             if points is not None and matrix.n > FEW:
                 order = nested_dissection(points[self.interior], matrix.indices, matrix.indptr)
-            self._factor = factorize(matrix, backend, progress, order)
+            self._solver = linear_solver(matrix, backend, progress, order)
+            self.backend = self._solver.backend
 
     def _blocks(self, inside: NDArray[np.bool_], number: NDArray[np.int32]) -> None:
         """Lib and Lbb, a few entries for each boundary vertex."""
@@ -79,6 +82,8 @@ class DirichletProblem:
         ni, nb = len(self.interior), len(self.boundary)
         self.Lib = csr_array((-w[mixed], (number[a], number[b])), shape=(ni, nb))
         self.Lbi = self.Lib.T.tocsr()
+        self._near = np.flatnonzero(np.diff(self.Lib.indptr)).astype(np.int64)  # rows that are not empty
+        self._next_to_boundary = self.Lib[self._near]
         i, j, w = number[i[~mixed]], number[j[~mixed]], -w[~mixed]
         d = np.arange(nb)
         values = np.concatenate((w, w, self._degree[self.boundary]))
@@ -86,17 +91,22 @@ class DirichletProblem:
             (values, (np.concatenate((i, j, d)), np.concatenate((j, i, d)))), shape=(nb, nb)
         )
 
+    def report_to(self, progress: Progress) -> None:
+        """Where solutions that take long are to report from now on."""
+        if self._solver is not None:
+            self._solver.report_to(progress)
+
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
         """``Lii^-1 rhs`` for rhs (ni,) or (ni, k).
 
         Very large weights (of mollified slivers) drown the small ones in the sums on the diagonal; the residual, taken
         over differences along edges, still has them, and corrects the solution.
         """
-        if self._factor is None:
+        if self._solver is None:
             return rhs.copy()
-        x = self._factor.solve(rhs)
+        x = self._solver.solve(rhs)
         for _ in range(self._corrections):
-            x = x + self._factor.solve(rhs - self._apply(x))
+            x = x + self._solver.solve(rhs - self._apply(x))
         return x
 
     def _apply(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -114,8 +124,16 @@ class DirichletProblem:
 
     def interior_values(self, zb: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Harmonic extension of complex boundary values zb (nb,), at the interior vertices (ni,)."""
-        rhs = -(self.Lib @ zb.view(np.float64).reshape(-1, 2))
-        return np.ascontiguousarray(self.solve(rhs)).view(np.complex128).reshape(-1)
+        values = -(self._next_to_boundary @ zb.view(np.float64).reshape(-1, 2))
+        if self._solver is None or self._corrections:
+            rhs = np.zeros((len(self.interior), 2))
+            rhs[self._near] = values
+            found = self.solve(rhs)
+        else:
+            found = self._solver.solve_at(self._near, values)
+        z = np.empty(len(found), dtype=np.complex128)
+        z.real, z.imag = found.T
+        return z
 
     def extend(self, zb: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Harmonic extension of complex boundary values zb (nb,) to all vertices (n,)."""

@@ -172,8 +172,8 @@ class _Flipper:
         both = np.concatenate((f, g))
         area2, cot = _areas_and_cotangents(self.lengths[:, both])
         self._area2[both], self.touched[both] = area2, True
-        for c in range(3):
-            self.cot[c, both] = cot[c]
+        for row, values in zip(self.cot, cot, strict=True):
+            row[both] = values
         self.flips += len(h)
         following = np.concatenate((waiting, new[inner]))
         following = np.sort(np.minimum(following, self.twin[following]))

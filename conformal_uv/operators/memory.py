@@ -26,12 +26,15 @@ CGROUPS = Path("/sys/fs/cgroup")
 #
 # In the orders that the libraries find themselves, at n = 996,004: cholmod 56.0, superlu 107.2.
 BYTES = {"cholmod": 75.0, "superlu": 120.0}
+LITTLE = 1 << 26  # bytes, for which nobody is asked
 
 
 def factorization_fits(n: int, backend: str) -> bool:
     """Whether a direct factorization by this backend fits into the memory at hand; True where that is unknown."""
-    at_hand = memory_at_hand()
     needed = factorization_memory(n, backend)
+    if needed < LITTLE:
+        return True
+    at_hand = memory_at_hand()
     if at_hand is not None:
         log.debug("%s of %d unknowns: about %d MB of %d at hand", backend, n, needed >> 20, at_hand >> 20)
     return at_hand is None or needed <= at_hand

@@ -20,7 +20,7 @@ from scipy.sparse.linalg import LinearOperator
 
 from ..errors import MissingDependencyError, SolverError
 from ..progress import Progress
-from .cholesky import LowerTriangle
+from .linear_system import LowerTriangle
 
 if TYPE_CHECKING:
     from pyamg.multilevel import MultilevelSolver
@@ -56,7 +56,7 @@ class Multigrid:
     ----------
     matrix : LowerTriangle
     progress : Progress
-        Told of every step; it may be replaced between solutions.
+        Told of every step, as the stage "conjugate gradients"; a step is as far as a cancel has to wait.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Multigrid:
 
     def __init__(self, matrix: LowerTriangle, progress: Progress) -> None:
         require_pyamg()
-        self.progress = progress
+        self._progress = progress
         self.steps = 0
         progress("factorization", 0.0)
         self._matrix = _full(matrix)
@@ -97,6 +97,16 @@ class Multigrid:
             out[:, k] = self._solved(np.ascontiguousarray(column), k, columns.shape[1])
         return out.reshape(rhs.shape)
 
+    def solve_at(self, rows: NDArray[np.int64], values: Real) -> Real:
+        """Solution (n, k) for right-hand sides with these values (r, k) in some rows and 0 in the others."""
+        rhs = np.zeros((self._matrix.shape[0], values.shape[1]))
+        rhs[rows] = values
+        return self.solve(rhs)
+
+    def report_to(self, progress: Progress) -> None:
+        """Where to report from now on."""
+        self._progress = progress
+
     def _solved(self, rhs: Real, k: int, count: int) -> Real:
         """Solution for right-hand side k of `count`."""
         from pyamg.krylov import cg
@@ -115,7 +125,7 @@ class Multigrid:
 
         def watch(_: Real) -> None:
             self.steps += 1
-            self.progress("conjugate gradients", (k + _fraction(energy, first)) / count)
+            self._progress("conjugate gradients", (k + _fraction(energy, first)) / count)
 
         n = len(rhs)
         x, info = cg(

@@ -2,9 +2,9 @@
 
 A. George, "Nested dissection of a regular finite element mesh", 1973: vertices that part a mesh in two are eliminated
 after both parts, and so on within each part. Here the parts are those of a k-d tree over the positions (cut in the
-middle across the longer extent), and all its separators come out at once. With the cells of the tree numbered so that each
-bit tells a side of a cut, an edge is cut where the numbers of its ends first differ, so a vertex separates its cell as
-soon as some neighbour has a number that differs there and is larger.
+middle across the longer extent), and all its separators come out at once. With the cells of the tree numbered so that
+each bit tells a side of a cut, an edge is cut where the numbers of its ends first differ, so a vertex separates its
+cell as soon as some neighbour has a number that differs there and is larger.
 """
 
 from __future__ import annotations

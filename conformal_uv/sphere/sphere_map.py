@@ -15,7 +15,7 @@ from ..errors import DisconnectedError, OptionError, TopologyError
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
-from ..operators.cholesky import choose_backend
+from ..operators.backends import choose_backend
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, EdgeLaplacian, edge_laplacian
 from ..progress import Callback, Progress
@@ -112,7 +112,8 @@ def sphere_map(
             raise OptionError(f"{name} is {value!r}; choose {', '.join(CHOICES[name])}.")
     if not 0.0 < tolerance < np.inf or index(max_iterations) < 0:
         raise OptionError("tolerance must be positive and max_iterations not negative.")
-    library, progress = choose_backend(backend), Progress(callback)
+    choose_backend(backend)  # complains of what is not there before any work
+    progress = Progress(callback)
     progress("checks", 0.0)
     surface = Surface.from_arrays(V, F)
     n, m = surface.n, surface.m
@@ -123,14 +124,14 @@ def sphere_map(
     mass = lumped_areas(surface.geometry, surface.corners, surface.n)
     mass = mass / mass.sum() if mass.sum() > 0.0 else np.full(surface.n, 1.0 / surface.n)
     edges = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, laplacian)
-    x = centred(linear_sphere(surface, laplacian, library, progress), mass)
+    x = centred(linear_sphere(surface, laplacian, backend, progress), mass)
     x, folded = _unfolded(surface, x, mass, repair, progress)
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...] = ()
     converged = True
     if method != "linear":
         if method == "newton":
             x, history, converged = _newton(
-                surface, edges, x, mass, tolerance, max_iterations, library, progress
+                surface, edges, x, mass, tolerance, max_iterations, backend, progress
             )
         else:
             constrained = SphereConstraints(edges, surface.corners, mass)

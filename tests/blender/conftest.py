@@ -52,11 +52,11 @@ def factorizations(addon, monkeypatch):
     import conformal_uv.operators.dirichlet as dirichlet
 
     counted = []
-    factorize = dirichlet.factorize
+    factorize = dirichlet.linear_solver
 
     def counting(matrix, *arguments, **keywords):
         counted.append(matrix.n)
         return factorize(matrix, *arguments, **keywords)
 
-    monkeypatch.setattr(dirichlet, "factorize", counting)
+    monkeypatch.setattr(dirichlet, "linear_solver", counting)
     return counted

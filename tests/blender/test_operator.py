@@ -183,7 +183,7 @@ def test_thread_leaves_its_work_for_execute(addon, factorizations):
 def test_cancel_stops_the_thread_and_changes_nothing(addon, monkeypatch, factorizations):
     import conformal_uv.operators.dirichlet as dirichlet
 
-    cancelled, counting = Event(), dirichlet.factorize
+    cancelled, counting = Event(), dirichlet.linear_solver
 
     def waiting(*arguments, **keywords):
         assert cancelled.wait(10.0)
@@ -192,7 +192,7 @@ def test_cancel_stops_the_thread_and_changes_nothing(addon, monkeypatch, factori
     ob, window = scenes.grid(60, 50), Window()
     before = scenes.shadowed(scenes.uvs(ob))
     with monkeypatch.context() as patched:
-        patched.setattr(dirichlet, "factorize", waiting)
+        patched.setattr(dirichlet, "linear_solver", waiting)
         work = started(addon, window)
         work.cancel(window)
         cancelled.set()
