@@ -26,6 +26,10 @@ SHORTEST_STEP = 0.05  # of a Newton direction; neighbours that allow no more are
 SMALLEST_GAP = 1e-12  # radians; below it neighbours are linked from the start
 SUFFICIENT_DECREASE = 1e-4  # Armijo's constant
 LEAST_FORCING = 1e-3  # of the gradient is left by a direction; the energy is so nearly quadratic that this pays
+LAST_FORCING = 1e-5  # and by the last one,
+LAST_PART = 0.7  # of the tolerance; the rest is for what is not quadratic
+NEARLY_WHOLE = 0.5  # of a Newton direction; neighbours that allow so much are moved apart to allow all of it
+SPREADINGS = 10  # rounds of moving neighbours apart
 
 
 class NewtonStep(NamedTuple):
@@ -126,7 +130,9 @@ def _newton_direction(
     gradient = tangent.project(energy.gradient)
     bend = gauge.curvature(energy.theta, energy.gradient)
     norm = float(np.linalg.norm(gradient))
-    goal = max(min(0.1, max(LEAST_FORCING, 0.5 * norm)) * norm, 0.5 * tolerance)
+    goal = min(0.1, max(LEAST_FORCING, 0.5 * norm)) * norm
+    if LAST_PART * tolerance > LAST_FORCING * norm:  # near enough to end with this step
+        goal = LAST_PART * tolerance
     return truncated_cg(
         gradient, lambda d: tangent.project(energy.hessian_product(d) + bend * d), tangent.precondition, goal
     )
@@ -139,6 +145,9 @@ def _line_search(
 
     Below the resolution of the energy in doubles, a step counts when it lowers the projected gradient.
     """
+    room = _room(energy.theta, direction)
+    if room.min() > NEARLY_WHOLE and 0 < 1000 * np.count_nonzero(room < 1.0) <= len(room):
+        direction = tangent.project(_spread_apart(energy.theta, direction))
     slope = float(energy.gradient @ direction)
     norm = np.linalg.norm(tangent.project(energy.gradient))
     degrees = energy.problem.Lbb.diagonal()
@@ -171,6 +180,20 @@ def _room(theta: Real, direction: Real) -> Real:
     room = np.full(len(theta), np.inf)
     np.divide((1.0 - GAP_KEPT) * _gaps(theta), closing, out=room, where=closing > 1e-14 * np.abs(direction).max())
     return room
+
+
+def _spread_apart(theta: Real, direction: Real) -> Real:
+    """The direction, with neighbours pushed apart that the whole step would bring too close together.
+
+    A few narrow gaps among thousands, at corners of the boundary, need not shorten the step of all the others.
+    """
+    gaps, moved = _gaps(theta), direction
+    for _ in range(SPREADINGS):
+        lack = np.maximum(2.0 * GAP_KEPT * gaps - (gaps + np.roll(moved, -1) - moved), 0.0)
+        if not lack.any():
+            break
+        moved = moved - 0.5 * lack + 0.5 * np.roll(lack, 1)
+    return moved
 
 
 def _blocking(theta: Real, direction: Real) -> NDArray[np.bool_]:
