@@ -27,6 +27,7 @@ class Cholmod:
         rows = matrix.indices.astype(np.int64)
         lower = spmatrix(dense(matrix.data), dense(rows), dense(columns), (matrix.n, matrix.n))
         del columns, rows
+        matrix.taken_over()
         self._n, self._dense, self._sparse, self._cholmod = matrix.n, dense, spmatrix, cholmod
         if order is None:
             self._factor = cholmod.symbolic(lower, uplo="L")
@@ -87,6 +88,7 @@ class SuperLU:
         places = np.concatenate((row, column[strict])), np.concatenate((column, row[strict]))
         full = csc_array((values, places), shape=(n, n))
         del row, column, strict, values, places
+        matrix.taken_over()
         full.indices, full.indptr = full.indices.astype(np.int32), full.indptr.astype(np.int32)
         progress("factorization", 0.0)  # where SuperLU looks for the order itself, it does so in the same call
         try:

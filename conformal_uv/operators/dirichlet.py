@@ -68,6 +68,7 @@ class DirichletProblem:
             order = None
             if points is not None and matrix.n > FEW:
                 order = nested_dissection(points[self.interior], matrix.indices, matrix.indptr)
+            matrix.passing = True
             self._solver = linear_solver(matrix, backend, progress, order)
             self.backend = self._solver.backend
 

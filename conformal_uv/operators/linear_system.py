@@ -13,18 +13,34 @@ from ..progress import Progress
 __all__ = ["LinearSolver", "LowerTriangle"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class LowerTriangle:
-    """The lower triangle of a symmetric (n, n) matrix in CSC form, rows sorted, diagonal first."""
+    """The lower triangle of a symmetric (n, n) matrix in CSC form, rows sorted, diagonal first.
+
+    Attributes
+    ----------
+    data, indices, indptr
+    passing : bool
+        Nobody else needs it: a solver that has made its own form of it may let the arrays go.
+    """
 
     data: NDArray[np.float64]
     indices: NDArray[np.int32]
     indptr: NDArray[np.int64]
+    passing: bool = False
+
+    def __post_init__(self) -> None:
+        self._n = len(self.indptr) - 1
 
     @property
     def n(self) -> int:
         """Order of the matrix."""
-        return len(self.indptr) - 1
+        return self._n
+
+    def taken_over(self) -> None:
+        """Called by a solver that does not need the arrays any more."""
+        if self.passing:
+            self.data, self.indices, self.indptr = self.data[:0].copy(), self.indices[:0].copy(), self.indptr[:1].copy()
 
 
 class LinearSolver(Protocol):

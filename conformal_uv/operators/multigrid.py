@@ -77,6 +77,7 @@ class Multigrid:
         self.steps = 0
         progress("factorization", 0.0)
         self._matrix = _full(matrix)
+        matrix.taken_over()
         self._hierarchy = _hierarchy(self._matrix)
         progress("factorization", 1.0)
 
