@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -104,10 +106,13 @@ def minimise_boundary_energy(
         if first is None:
             first = norm
             tolerance = max(tolerance, relative_tolerance * first)
-        progress("newton", _fraction(norm, first, tolerance))
+        reached = _fraction(norm, first, tolerance)
+        progress("newton", reached)
         if norm <= tolerance or iteration == max_iterations:
             break
-        direction, cg_steps = _newton_direction(energy, gauge, tangent, tolerance)
+        direction, cg_steps = _newton_direction(
+            energy, gauge, tangent, tolerance, partial(progress, "newton", reached)
+        )
         blocking = _blocking(energy.theta, direction)
         if blocking.any() and (links | blocking).sum() <= len(links) - 3:
             links = links | blocking
@@ -124,7 +129,7 @@ def minimise_boundary_energy(
 
 
 def _newton_direction(
-    energy: BoundaryEnergy, gauge: Gauge, tangent: Tangent, tolerance: float
+    energy: BoundaryEnergy, gauge: Gauge, tangent: Tangent, tolerance: float, watch: Callable[[], None]
 ) -> tuple[Real, int]:
     """Solve ``P H P d = -P g``, H the Hessian of the Lagrangian: energy less constraints times multipliers."""
     gradient = tangent.project(energy.gradient)
@@ -134,7 +139,7 @@ def _newton_direction(
     if LAST_PART * tolerance > LAST_FORCING * norm:  # near enough to end with this step
         goal = LAST_PART * tolerance
     return truncated_cg(
-        gradient, lambda d: tangent.project(energy.hessian_product(d) + bend * d), tangent.precondition, goal
+        gradient, lambda d: tangent.project(energy.hessian_product(d) + bend * d), tangent.precondition, goal, watch
     )
 
 

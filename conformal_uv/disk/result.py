@@ -42,7 +42,8 @@ class DiskMap:
         Faces with non-positive signed area in uv, decided exactly.
     lost_to_double : (k,) int64
         Those of them whose height is within the rounding of the positions: crowded faces, too small in the disk for
-        doubles to hold. All of them where positive weights everywhere left folds, which only rounding can do.
+        doubles to hold. All of them where positive weights everywhere left folds, or would have cost too many angles
+        to undo them.
     converged : bool
         Whether the method reached its tolerance; always true of "linear", which does not iterate.
     history : tuple

@@ -19,7 +19,11 @@ FLAT = 1e-12  # curvature, in the preconditioner's norm, below which the energy 
 
 
 def truncated_cg(
-    gradient: Real, hessian_product: Callable[[Real], Real], precondition: Callable[[Real], Real], goal: float
+    gradient: Real,
+    hessian_product: Callable[[Real], Real],
+    precondition: Callable[[Real], Real],
+    goal: float,
+    watch: Callable[[], None] = lambda: None,
 ) -> tuple[Real, int]:
     """A direction d with ``H d = -gradient`` to a residual of norm `goal`, and the steps it took.
 
@@ -30,12 +34,15 @@ def truncated_cg(
     ----------
     gradient : (k,) or (k, d) float64
         In the space of free directions, as are all products with H and with the preconditioner.
+    watch : callable, optional
+        Called before every step; what it raises ends the work.
     """
     direction = np.zeros_like(gradient)
     residual = -gradient
     smooth = precondition(residual)
     search, product = smooth, float(np.vdot(residual, smooth))
     for step in range(1, MOST_STEPS + 1):
+        watch()
         image = hessian_product(search)
         curvature = float(np.vdot(search, image))
         if curvature <= FLAT * product:

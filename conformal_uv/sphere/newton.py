@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from collections.abc import Callable
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -99,10 +100,11 @@ def minimise_sphere_energy(
         gradient = held.project(energy.gradient)
         norm = float(np.linalg.norm(gradient))
         first = first or norm
-        progress("newton", 1.0 if norm <= tolerance else _fraction(norm, first, tolerance))
+        reached = 1.0 if norm <= tolerance else _fraction(norm, first, tolerance)
+        progress("newton", reached)
         if norm <= tolerance or iteration == max_iterations:
             break
-        direction, steps = _direction(energy, held, gradient, tolerance)
+        direction, steps = _direction(energy, held, gradient, tolerance, partial(progress, "newton", reached))
         found = _line_search(energy, held, mass, direction, gradient)
         if found is None:
             break
@@ -113,10 +115,14 @@ def minimise_sphere_energy(
     return SphereNewton(energy.x, tuple(history), bool(norm <= tolerance))
 
 
-def _direction(energy: SphereEnergy, held: _Held, gradient: Real, tolerance: float) -> tuple[Real, int]:
+def _direction(
+    energy: SphereEnergy, held: _Held, gradient: Real, tolerance: float, watch: Callable[[], None]
+) -> tuple[Real, int]:
     norm = float(np.linalg.norm(gradient))
     goal = max(min(0.1, np.sqrt(norm)) * norm, 0.3 * tolerance)
-    return truncated_cg(gradient, lambda d: held.project(energy.hessian_product(d)), held.precondition, goal)
+    return truncated_cg(
+        gradient, lambda d: held.project(energy.hessian_product(d)), held.precondition, goal, watch
+    )
 
 
 def _line_search(
