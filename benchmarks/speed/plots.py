@@ -15,7 +15,6 @@ matplotlib.use("Agg")
 
 from matplotlib import pyplot as plt  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.patheffects import withStroke  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator  # noqa: E402
 
 __all__ = ["draw"]
@@ -45,7 +44,6 @@ COLOURS = {
     "lapy": GREEN,
 }
 MARKERS = {"harmonic": "o", "conformal": "o", "lscm": "s", "angle": "s"}
-GAP = 0.042  # of the axis, between labels
 
 
 def draw(rows: list[Row], folder: Path) -> list[Path]:
@@ -76,19 +74,19 @@ def _picture(rows: list[Row], number: Callable[[Row], float], label: str, path: 
     if not panels:
         return False
     figure, axes = plt.subplots(
-        1, len(panels), figsize=(7.6 * len(panels), 6.4), sharey=True, squeeze=False, layout="constrained"
+        1, len(panels), figsize=(8.2 * len(panels), 5.6), sharey=True, squeeze=False, layout="constrained"
     )
     for ax, (title, panel) in zip(axes[0], panels.items(), strict=True):
         ax.set_title(title, fontsize=10, loc="left", color="0.3")
         for name, points in panel.items():
-            ax.plot(*zip(*points, strict=True), **_style(name), clip_on=False)
+            ax.plot(*zip(*points, strict=True), **_style(name), clip_on=False, label=name)
         ax.set_xscale("log")
         ax.set_yscale("log")
         ax.set_xlabel("vertices")
     axes[0][0].set_ylabel(label)
     for ax, panel in zip(axes[0], panels.values(), strict=True):  # once both panels have set the limits they share
         _ticks(ax, sorted({n for points in lines.values() for n, _ in points}))
-        _labels(ax, panel)
+        _legend(ax, panel)
     figure.suptitle(f"{rows[0].mesh}: {label}, median over processes")
     figure.savefig(path, dpi=150)
     plt.close(figure)
@@ -137,52 +135,20 @@ def _short(n: int) -> str:
     return f"{n / 1e6:.2g}M" if n >= 999_500 else f"{n / 1e3:.3g}k"
 
 
-def _labels(ax: Axes, lines: dict[str, Points]) -> None:
-    """Names beside the right ends of lines, moved apart, or at the last point of lines that end before."""
-    to_axes = ax.transScale + ax.transLimits
-    last = max(points[-1][0] for points in lines.values())
-    whole: dict[str, tuple[float, float]] = {}
-    for name, points in lines.items():
-        if points[-1][0] < last:
-            side = "right" if len(points) > 1 else "left"
-            shift = (-5 if len(points) > 1 else 5, 5)
-            text = ax.annotate(name, points[-1], shift, textcoords="offset points", ha=side, **_text_style(name))
-            text.set_path_effects([withStroke(linewidth=3, foreground="white")])
-        else:
-            x, y = to_axes.transform(points[-1])
-            whole[name] = float(x), float(y)
-    names = sorted(whole, key=lambda name: whole[name][1])
-    for name, height in zip(names, _apart([whole[name][1] for name in names], GAP), strict=True):
-        leader = {"arrowstyle": "-", "linewidth": 0.7, "alpha": 0.6, "shrinkA": 0, "shrinkB": 3, "relpos": (0.0, 0.5)}
-        ax.annotate(
-            name,
-            xy=whole[name],
-            xycoords="axes fraction",
-            xytext=(whole[name][0] + 0.08, height),
-            textcoords="axes fraction",
-            va="center",
-            arrowprops=leader | {"color": _style(name)["color"]},
-            **_text_style(name),
-        )
-
-
-def _text_style(name: str) -> dict[str, Any]:
-    """A name in the colour of its line, ours in bold."""
-    weight = "bold" if CONTESTANTS[name].group == "ours" else "normal"
-    return {"color": _style(name)["color"], "fontsize": 9, "fontweight": weight}
-
-
-def _apart(heights: list[float], gap: float) -> list[float]:
-    """Heights in rising order, moved as little as gaps between them need, none above 1.
-
-    Labels that touch become a block around the mean of what they asked for.
-    """
-    blocks: list[tuple[float, int]] = []  # middle and number of labels of each block
-    for height in heights:
-        middle, count = height, 1
-        while blocks and middle - blocks[-1][0] < gap * (count + blocks[-1][1]) / 2:
-            below, many = blocks.pop()
-            middle, count = (middle * count + below * many) / (count + many), count + many
-        blocks.append((middle, count))
-    placed = [middle + gap * (k - (count - 1) / 2) for middle, count in blocks for k in range(count)]
-    return [min(place, 1.0 - gap * (len(placed) - 1 - k)) for k, place in enumerate(placed)]
+def _legend(ax: Axes, lines: dict[str, Points]) -> None:
+    """Names beside the panel, in the order of the lines at the largest size that most of them reached."""
+    shared = sorted(n for points in lines.values() for n, _ in points)[-max(len(lines), 1) :][0]
+    heights = {name: min(points, key=lambda point: abs(point[0] - shared))[1] for name, points in lines.items()}
+    handles = {line.get_label(): line for line in ax.get_lines()}
+    names = sorted(lines, key=lambda name: -heights[name])
+    legend = ax.legend(
+        [handles[name] for name in names],
+        names,
+        loc="upper left",
+        bbox_to_anchor=(1.01, 1.0),
+        frameon=False,
+        fontsize=9,
+        handlelength=3.0,
+    )
+    for name, text in zip(names, legend.get_texts(), strict=True):
+        text.set_fontweight("bold" if CONTESTANTS[name].group == "ours" else "normal")
