@@ -12,12 +12,13 @@ import pytest
 import conformal_uv as cuv
 from conformal_uv import samples
 from conformal_uv.errors import CancelledError, MissingDependencyError, SolverError
+from conformal_uv.linear import backends, memory, multigrid
+from conformal_uv.linear.backends import linear_solver
+from conformal_uv.linear.linear_system import LowerTriangle
+from conformal_uv.linear.multigrid import Multigrid
 from conformal_uv.mesh import Surface
-from conformal_uv.operators import DirichletProblem, backends, dirichlet, memory, multigrid
-from conformal_uv.operators.backends import linear_solver
+from conformal_uv.operators import DirichletProblem, dirichlet
 from conformal_uv.operators.edge_laplacian import EdgeLaplacian, edge_laplacian
-from conformal_uv.operators.linear_system import LowerTriangle
-from conformal_uv.operators.multigrid import Multigrid
 from conformal_uv.progress import Progress
 
 pytest.importorskip("pyamg")

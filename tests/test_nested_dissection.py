@@ -10,12 +10,12 @@ from scipy.sparse.linalg import splu
 
 import conformal_uv as cuv
 from conformal_uv import samples
+from conformal_uv.linear.backends import linear_solver
+from conformal_uv.linear.linear_system import LowerTriangle
+from conformal_uv.linear.nested_dissection import nested_dissection
 from conformal_uv.mesh.surface import Surface
-from conformal_uv.operators.backends import linear_solver
 from conformal_uv.operators.dirichlet import interior_matrix
 from conformal_uv.operators.edge_laplacian import edge_laplacian
-from conformal_uv.operators.linear_system import LowerTriangle
-from conformal_uv.operators.nested_dissection import nested_dissection
 
 MESHES = {
     "terrain": samples.terrain(20000, seed=1),

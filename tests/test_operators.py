@@ -17,11 +17,12 @@ from scipy.sparse import diags_array
 
 import conformal_uv as cuv
 from conformal_uv import samples
+from conformal_uv.linear import backends
+from conformal_uv.linear.backends import choose_backend, linear_solver
+from conformal_uv.linear.linear_system import LowerTriangle
 from conformal_uv.mesh import Surface
-from conformal_uv.operators import DirichletProblem, backends
-from conformal_uv.operators.backends import choose_backend, linear_solver
+from conformal_uv.operators import DirichletProblem
 from conformal_uv.operators.edge_laplacian import cotan_edges
-from conformal_uv.operators.linear_system import LowerTriangle
 from conformal_uv.operators.wirtinger import conformal_energy, enclosed_area
 
 EPS = np.finfo(float).eps

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from conformal_uv.linear.nested_dissection import nested_dissection
 from conformal_uv.mesh.surface import Surface
 from conformal_uv.operators.dirichlet import interior_matrix
 from conformal_uv.operators.edge_laplacian import edge_laplacian
-from conformal_uv.operators.nested_dissection import nested_dissection
 
 __all__ = ["save_matrix"]
 

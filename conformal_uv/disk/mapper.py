@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import OptionError
+from ..linear.backends import choose_backend
 from ..mesh.surface import Surface
-from ..operators.backends import choose_backend
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, edge_laplacian
 from ..operators.orientation_sign import flipped_faces

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..linear.truncated_cg import truncated_cg
 from ..operators.dirichlet import DirichletProblem
-from ..operators.truncated_cg import truncated_cg
 from ..progress import Progress
 from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from ..linear.backends import choose_backend, linear_solver
+from ..linear.linear_system import LinearSolver, LowerTriangle
+from ..linear.nested_dissection import nested_dissection
 from ..progress import Progress
-from .backends import choose_backend, linear_solver
 from .edge_laplacian import EdgeLaplacian
-from .linear_system import LinearSolver, LowerTriangle
-from .nested_dissection import nested_dissection
 
 __all__ = ["DirichletProblem", "interior_matrix"]
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..disk.newton import NewtonStep
+from ..linear.truncated_cg import truncated_cg
 from ..operators.dirichlet import DirichletProblem
-from ..operators.truncated_cg import truncated_cg
 from ..progress import Progress
 from .centring import centred, unit
 from .energy import SphereEnergy

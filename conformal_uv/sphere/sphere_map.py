@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from ..disk.augmented_lagrangian import AugmentedLagrangianStep
 from ..disk.newton import NewtonStep
 from ..errors import DisconnectedError, OptionError, TopologyError
+from ..linear.backends import choose_backend
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
-from ..operators.backends import choose_backend
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, EdgeLaplacian, edge_laplacian
 from ..progress import Callback, Progress

@@ -1,0 +1,15 @@
+"""Solvers of sparse systems, which know nothing of meshes: factorizations, multigrid, elimination orders, memory."""
+
+from .backends import choose_backend, linear_solver
+from .linear_system import LinearSolver, LowerTriangle
+from .nested_dissection import nested_dissection
+from .truncated_cg import truncated_cg
+
+__all__ = [
+    "LinearSolver",
+    "LowerTriangle",
+    "choose_backend",
+    "linear_solver",
+    "nested_dissection",
+    "truncated_cg",
+]
