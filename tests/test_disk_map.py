@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 import conformal_uv as cuv
 from conformal_uv import samples
 from conformal_uv.disk.boundary_energy import BoundaryEnergy
-from conformal_uv.disk.newton import NewtonStep
 from conformal_uv.mesh import Surface
 from conformal_uv.operators import DirichletProblem, dirichlet
 from conformal_uv.operators.edge_laplacian import cotan_edges
+from conformal_uv.optimize import NewtonStep
 
 EPS = np.finfo(float).eps
 CUBE_ROOTS = np.array([1.0, -0.5 + 0.75**0.5 * 1j, -0.5 - 0.75**0.5 * 1j])

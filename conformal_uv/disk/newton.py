@@ -10,14 +10,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..linear.truncated_cg import truncated_cg
 from ..operators.dirichlet import DirichletProblem
+from ..optimize import NewtonStep, line_search, log_fraction, truncated_cg
 from ..progress import Progress
 from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge
 from .tangent import Tangent
 
-__all__ = ["NewtonResult", "NewtonStep", "minimise_boundary_energy"]
+__all__ = ["NewtonResult", "minimise_boundary_energy"]
 
 Real = NDArray[np.float64]
 log = logging.getLogger(__name__)
@@ -26,33 +26,11 @@ EPS = np.finfo(np.float64).eps
 GAP_KEPT = 0.1  # of the angle between two neighbours, what a step leaves at the least
 SHORTEST_STEP = 0.05  # of a Newton direction; neighbours that allow no more are linked
 SMALLEST_GAP = 1e-12  # radians; below it neighbours are linked from the start
-SUFFICIENT_DECREASE = 1e-4  # Armijo's constant
 LEAST_FORCING = 1e-3  # of the gradient is left by a direction; the energy is so nearly quadratic that this pays
 LAST_FORCING = 1e-5  # and by the last one,
 LAST_PART = 0.7  # of the tolerance; the rest is for what is not quadratic
 NEARLY_WHOLE = 0.5  # of a Newton direction; neighbours that allow so much are moved apart to allow all of it
 SPREADINGS = 10  # rounds of moving neighbours apart
-
-
-class NewtonStep(NamedTuple):
-    """What the solver saw at one iterate.
-
-    Attributes
-    ----------
-    energy : float
-        Conformal or Dirichlet energy.
-    gradient_norm : float
-        Euclidean norm of the projected gradient in the boundary angles.
-    cg_steps : int
-        Conjugate gradient steps for the direction taken from here.
-    step_length : float
-        Part of the Newton direction taken, 0 at the last iterate.
-    """
-
-    energy: float
-    gradient_norm: float
-    cg_steps: int
-    step_length: float
 
 
 class NewtonResult(NamedTuple):
@@ -106,7 +84,7 @@ def minimise_boundary_energy(
         if first is None:
             first = norm
             tolerance = max(tolerance, relative_tolerance * first)
-        reached = _fraction(norm, first, tolerance)
+        reached = log_fraction(norm, first, tolerance)
         progress("newton", reached)
         if norm <= tolerance or iteration == max_iterations:
             break
@@ -146,30 +124,25 @@ def _newton_direction(
 def _line_search(
     energy: BoundaryEnergy, gauge: Gauge, tangent: Tangent, direction: Real
 ) -> tuple[float, BoundaryEnergy] | None:
-    """Halve the step from the longest that keeps the order until the energy falls enough.
-
-    Below the resolution of the energy in doubles, a step counts when it lowers the projected gradient.
-    """
+    """From the longest step that keeps the order."""
     room = _room(energy.theta, direction)
     if room.min() > NEARLY_WHOLE and 0 < 1000 * np.count_nonzero(room < 1.0) <= len(room):
         direction = tangent.project(_spread_apart(energy.theta, direction))
     slope = float(energy.gradient @ direction)
     norm = np.linalg.norm(tangent.project(energy.gradient))
     degrees = energy.problem.Lbb.diagonal()
-    noise = EPS * (64.0 * (abs(energy.value) + np.pi) + 4.0 * float(np.linalg.norm(degrees)))
-    length = min(1.0, float(_room(energy.theta, direction).min()))
-    for _ in range(30):
+    noise = float(EPS) * (64.0 * (abs(energy.value) + np.pi) + 4.0 * float(np.linalg.norm(degrees)))
+
+    def move(length: float) -> BoundaryEnergy:
         theta = gauge.restore(energy.theta + length * direction)
-        trial = BoundaryEnergy(energy.problem, theta, minus_area=energy.minus_area)
-        change = trial.value - energy.value
-        if change <= SUFFICIENT_DECREASE * length * slope and change < -noise:
-            return length, trial
-        if abs(change) <= noise:
-            there = Tangent(gauge, theta, tangent.links)
-            if np.linalg.norm(there.project(trial.gradient)) < norm:
-                return length, trial
-        length *= 0.5
-    return None
+        return BoundaryEnergy(energy.problem, theta, minus_area=energy.minus_area)
+
+    def gradient_falls(there: BoundaryEnergy) -> bool:
+        tangent_there = Tangent(gauge, there.theta, tangent.links)
+        return bool(np.linalg.norm(tangent_there.project(there.gradient)) < norm)
+
+    length = min(1.0, float(_room(energy.theta, direction).min()))
+    return line_search(energy.value, slope, move, gradient_falls, length=length, noise=noise)
 
 
 def _gaps(theta: Real) -> Real:
@@ -204,10 +177,3 @@ def _spread_apart(theta: Real, direction: Real) -> Real:
 def _blocking(theta: Real, direction: Real) -> NDArray[np.bool_]:
     """Gaps that would stop the step almost at once."""
     return _room(theta, direction) < SHORTEST_STEP
-
-
-def _fraction(norm: float, first: float, tolerance: float) -> float:
-    """How far the logarithm of the gradient has come to its goal."""
-    if norm <= tolerance or first <= tolerance:
-        return 1.0
-    return float(np.clip(np.log(first / norm) / np.log(first / tolerance), 0.0, 1.0))

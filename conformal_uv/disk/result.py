@@ -12,8 +12,7 @@ from ..mesh.surface import Surface
 from ..operators.distortion import Distortion, distortion_of
 from ..operators.orientation_sign import orientation_signs
 from ..operators.wirtinger import conformal_energy, enclosed_area
-from .augmented_lagrangian import AugmentedLagrangianStep
-from .newton import NewtonStep
+from ..optimize import AugmentedLagrangianStep, NewtonStep
 from .options import DiskOptions
 from .repair import Repair, unresolved_faces
 from .solution import Solution

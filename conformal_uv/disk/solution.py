@@ -12,12 +12,13 @@ from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import uniform_edges
 from ..operators.laplacian import cotangent_weights, laplacian_matrix
+from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
 from ..progress import Progress
-from .augmented_lagrangian import AugmentedLagrangianStep, area_hessian, augmented_lagrangian
+from .augmented_lagrangian import area_hessian, circle_problem
 from .centre_cell import release_centre
 from .gauge import CentreGauge, PinGauge
 from .harmonic_measure import CentredMeasure
-from .newton import NewtonResult, NewtonStep, minimise_boundary_energy
+from .newton import NewtonResult, minimise_boundary_energy
 from .options import DiskOptions
 from .placement import CUBE_ROOTS, place_pins
 
@@ -93,18 +94,21 @@ def solve_augmented_lagrangian(
     edges, n = surface.edges, surface.n
     tutte = DirichletProblem(uniform_edges(edges), loop, n, points=surface.V, backend=backend)
     start = tutte.extend(np.exp(2j * np.pi / len(loop) * np.arange(len(loop))))
-    found = augmented_lagrangian(
+    problem = circle_problem(
         laplacian_matrix(edges, 2.0 * cotangent_weights(edges, surface.geometry), n),
-        np.column_stack((start.real, start.imag)),
         loop,
         np.array(options.pins),
         area=area_hessian(loop, n) if options.objective == "conformal" else None,
+    )
+    x, history, converged = augmented_lagrangian(
+        problem,
+        np.concatenate((start.real, start.imag)),
         max_iterations=options.max_iterations,
         progress=progress,
     )
-    z = found.uv[:, 0] + 1j * found.uv[:, 1]
+    z = x[:n] + 1j * x[n:]
     z[loop] /= np.abs(z[loop])  # the constraints hold to 1e-8, the circle is to be met
-    return Solution(z, None, found.history, found.converged, None)
+    return Solution(z, None, history, converged, None)
 
 
 def _angles(zb: Complex) -> NDArray[np.float64]:

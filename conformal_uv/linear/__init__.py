@@ -3,7 +3,6 @@
 from .backends import choose_backend, linear_solver
 from .linear_system import LinearSolver, LowerTriangle
 from .nested_dissection import nested_dissection
-from .truncated_cg import truncated_cg
 
 __all__ = [
     "LinearSolver",
@@ -11,5 +10,4 @@ __all__ = [
     "choose_backend",
     "linear_solver",
     "nested_dissection",
-    "truncated_cg",
 ]

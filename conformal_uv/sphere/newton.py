@@ -9,9 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk.newton import NewtonStep
-from ..linear.truncated_cg import truncated_cg
 from ..operators.dirichlet import DirichletProblem
+from ..optimize import NewtonStep, line_search, log_fraction, truncated_cg
 from ..progress import Progress
 from .centring import centred, unit
 from .energy import SphereEnergy
@@ -21,7 +20,6 @@ __all__ = ["SphereNewton", "minimise_sphere_energy"]
 Real = NDArray[np.float64]
 
 VOLUME_KEPT = 0.95  # of the signed volume, by one step
-SUFFICIENT_DECREASE = 1e-4
 EPS = np.finfo(np.float64).eps
 
 
@@ -100,7 +98,7 @@ def minimise_sphere_energy(
         gradient = held.project(energy.gradient)
         norm = float(np.linalg.norm(gradient))
         first = first or norm
-        reached = 1.0 if norm <= tolerance else _fraction(norm, first, tolerance)
+        reached = log_fraction(norm, first, tolerance)
         progress("newton", reached)
         if norm <= tolerance or iteration == max_iterations:
             break
@@ -129,27 +127,21 @@ def _line_search(
     energy: SphereEnergy, held: _Held, mass: Real, direction: Real, gradient: Real
 ) -> tuple[float, SphereEnergy] | None:
     slope, norm = float(np.vdot(gradient, direction)), float(np.linalg.norm(gradient))
-    noise = 64.0 * EPS * (abs(energy.value) + 4.0 * np.pi)
+    noise = 64.0 * float(EPS) * (abs(energy.value) + 4.0 * np.pi)
     least = VOLUME_KEPT * _volume(energy)
-    length = 1.0
-    for _ in range(30):
+
+    def move(length: float) -> SphereEnergy | None:
         moved = centred(unit(energy.x + length * direction), mass)
         trial = SphereEnergy(energy.laplacian, energy.corners, moved)
-        change = trial.value - energy.value
-        if _volume(trial) >= least:
-            if change <= SUFFICIENT_DECREASE * length * slope and change < -noise:
-                return length, trial
-            if abs(change) <= noise and np.linalg.norm(held.project(trial.tangent(trial.gradient))) < norm:
-                return length, trial
-        length *= 0.5
-    return None
+        return trial if _volume(trial) >= least else None
+
+    def gradient_falls(there: SphereEnergy) -> bool:
+        return bool(np.linalg.norm(held.project(there.tangent(there.gradient))) < norm)
+
+    return line_search(energy.value, slope, move, gradient_falls, length=1.0, noise=noise)
 
 
 def _volume(energy: SphereEnergy) -> float:
     """Six times the signed volume of the image."""
     a, b, c = (energy.x[corner] for corner in energy.corners)
     return float(np.einsum("ij,ij->", a, np.cross(b, c)))
-
-
-def _fraction(norm: float, first: float, tolerance: float) -> float:
-    return float(np.clip(np.log(first / norm) / np.log(first / tolerance), 0.0, 1.0))

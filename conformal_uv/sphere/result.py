@@ -8,11 +8,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk.augmented_lagrangian import AugmentedLagrangianStep
-from ..disk.newton import NewtonStep
 from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
 from ..operators.distortion import Distortion, distortion_of
+from ..optimize import AugmentedLagrangianStep, NewtonStep
 
 __all__ = ["SphereMap"]
 

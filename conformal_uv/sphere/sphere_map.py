@@ -9,8 +9,6 @@ from operator import index
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..disk.augmented_lagrangian import AugmentedLagrangianStep
-from ..disk.newton import NewtonStep
 from ..errors import DisconnectedError, OptionError, TopologyError
 from ..linear.backends import choose_backend
 from ..mesh.geometry import triangle_geometry
@@ -18,8 +16,9 @@ from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, EdgeLaplacian, edge_laplacian
+from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
 from ..progress import Callback, Progress
-from .augmented_lagrangian import SphereConstraints, augmented_lagrangian_sphere
+from .augmented_lagrangian import SphereProblem
 from .cap import capped
 from .centring import centred, landmark_aligned, principal_rotation, surface_rotation, unit
 from .energy import SphereEnergy
@@ -134,10 +133,13 @@ def sphere_map(
                 surface, edges, x, mass, tolerance, max_iterations, backend, progress
             )
         else:
-            constrained = SphereConstraints(edges, surface.corners, mass)
-            x, history, converged = augmented_lagrangian_sphere(
-                constrained, x, max_iterations=max_iterations, progress=progress
+            flat, history, converged = augmented_lagrangian(
+                SphereProblem(edges, surface.corners, mass),
+                x.reshape(-1),
+                max_iterations=max_iterations,
+                progress=progress,
             )
+            x = unit(flat.reshape(-1, 3))
         x, after = _unfolded(surface, x, mass, repair, progress)
         folded += after
         if not converged:

@@ -1,0 +1,17 @@
+"""Iterations that minimise: what Newton's methods and augmented Lagrangians of all shapes have in common."""
+
+from .augmented_lagrangian import ConstrainedProblem, augmented_lagrangian
+from .history import AugmentedLagrangianStep, NewtonStep, log_fraction
+from .line_search import SUFFICIENT_DECREASE, line_search
+from .truncated_cg import truncated_cg
+
+__all__ = [
+    "SUFFICIENT_DECREASE",
+    "AugmentedLagrangianStep",
+    "ConstrainedProblem",
+    "NewtonStep",
+    "augmented_lagrangian",
+    "line_search",
+    "log_fraction",
+    "truncated_cg",
+]
