@@ -21,9 +21,10 @@ ELLIPSOID = np.array([1.0, 1.5, 2.5])
 
 
 def bumpy(level: int = 3) -> Mesh:
-    """A star-shaped surface without symmetry."""
+    """A star-shaped surface without symmetry, so that its principal axes have senses to tell."""
     V, F = icosphere(level)
-    return V * (1 + 0.2 * np.sin(3 * V[:, :1] + 1) + 0.15 * np.cos(4 * V[:, 1:2] * V[:, 2:])), F
+    x, y, z = V[:, :1], V[:, 1:2], V[:, 2:]
+    return V * (1 + 0.2 * np.sin(3 * x + 1) + 0.15 * np.cos(4 * y * z) + 0.1 * np.sin(2 * y + z)), F
 
 
 def assert_covers_the_sphere(m: cuv.SphereMap) -> None:
