@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.fans import corner_links, split_corners
+from ..mesh.halfedges import joined_pairs
 
 __all__ = ["CutSurface"]
 
@@ -50,9 +51,7 @@ class CutSurface:
     @property
     def joined(self) -> tuple[Ints, Ints]:
         """Pairs of joined sides, each pair once."""
-        one = np.flatnonzero(self.twin >= 0)
-        one = one[one < self.twin[one]]
-        return one, self.twin[one]
+        return joined_pairs(self.twin)
 
     def side_lengths(self, sides: Ints) -> NDArray[np.float64]:
         """Lengths in the units of V over its largest coordinate."""

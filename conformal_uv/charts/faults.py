@@ -20,6 +20,7 @@ from ..errors import (
     listed,
 )
 from ..mesh.fans import corner_links, pinched_vertices
+from ..mesh.halfedges import joined_pairs
 from .seaming import SeamedMesh, crowded_pairs
 
 __all__ = ["Faults", "by_chart", "note_crowded_edges", "note_pinched_vertices", "note_unusable_polygons"]
@@ -98,10 +99,8 @@ def note_pinched_vertices(faults: Faults, seamed: SeamedMesh, elsewhere: Bools, 
     use too (`elsewhere`, (n,)).
     """
     corners, polygon, follow = seamed.mesh.corners, seamed.sides.polygon, seamed.sides.follow
-    one = np.flatnonzero(seamed.sides.twin >= 0)
-    one = one[one < seamed.sides.twin[one]]
-    extra = crowded_pairs(seamed, np.ones_like(seamed.seam))
-    one, other = np.concatenate((one, extra[0])), np.concatenate((seamed.sides.twin[one], extra[1]))
+    pairs, extra = joined_pairs(seamed.sides.twin), crowded_pairs(seamed, np.ones_like(seamed.seam))
+    one, other = (np.concatenate(ends) for ends in zip(pairs, extra, strict=True))
     pinched = np.zeros(len(elsewhere), dtype=bool)
     pinched[pinched_vertices(corners, *corner_links(corners, follow, one, other), len(elsewhere))] = True
     bad = np.flatnonzero((pinched & ~elsewhere)[corners])

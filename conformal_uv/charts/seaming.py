@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from ..mesh.halfedges import joined_pairs
 from ..mesh.polygon_sides import PolygonSides, edge_keys, polygon_sides
 from ..mesh.polygons import PolygonMesh
 from .arguments import check_seams
@@ -41,9 +42,7 @@ class SeamedMesh:
     @property
     def joined(self) -> tuple[Ints, Ints]:
         """Pairs of joined sides, each pair once."""
-        one = np.flatnonzero(self.twin >= 0)
-        one = one[one < self.twin[one]]
-        return one, self.twin[one]
+        return joined_pairs(self.twin)
 
 
 def selected_part(mesh: PolygonMesh, polygons: Ints) -> tuple[PolygonMesh, Ints]:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import listed
+from ..mesh.orientation import disagreeing_pairs, face_signs
 from ..mesh.polygons import PolygonMesh
 from .boundaries import without_digons
 from .cut_surface import CutSurface
@@ -20,7 +21,7 @@ from .faults import (
 from .mending import Mending
 from .seaming import SeamedMesh, linked_charts, seamed_mesh, selected_part
 from .split import Split
-from .winding import disagreements, note_orientation, polygon_signs, turned, untwisted
+from .winding import note_orientation, turned, untwisted
 
 __all__ = ["split_into_charts"]
 
@@ -67,9 +68,9 @@ def _wound(
 ) -> tuple[SeamedMesh, Ints]:
     """The polygons all wound one way in each chart, and the old corner of each corner."""
     same = np.arange(len(seamed.mesh.corners))
-    if not len(disagreements(seamed)):
+    if not len(disagreeing_pairs(seamed.mesh.corners, seamed.twin)):
         return seamed, same
-    sign = polygon_signs(seamed)
+    sign = face_signs(seamed.mesh.corners, seamed.sides.polygon, seamed.twin, len(seamed.mesh.sizes))
     if mending.orientation == "refuse":
         note_orientation(faults, sign, chart, name)
         return seamed, same

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import breadth_first_order, connected_components
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import breadth_first_order
 
 from ..errors import ConformalUVError, OrientationError, listed
 from ..mesh.polygon_sides import PolygonSides
@@ -15,39 +15,10 @@ from ..mesh.polygons import PolygonMesh
 from .faults import Faults
 from .seaming import SeamedMesh
 
-__all__ = ["disagreements", "note_orientation", "polygon_signs", "turned", "untwisted"]
+__all__ = ["note_orientation", "turned", "untwisted"]
 
 Ints = NDArray[np.int64]
 Signs = NDArray[np.int8]
-
-
-def disagreements(seamed: SeamedMesh) -> Ints:
-    """Joined sides that run the same way as their twins, each pair once."""
-    one, other = seamed.joined
-    return one[seamed.mesh.corners[one] == seamed.mesh.corners[other]]
-
-
-def polygon_signs(seamed: SeamedMesh) -> Signs:
-    """+1 or -1 for each polygon so that all agree across joined sides, +1 for the larger part of a chart; 0 on
-    one-sided charts.
-
-    A node for either winding of every polygon; a chart has one side when both windings of a polygon hang together.
-    """
-    p = len(seamed.mesh.sizes)
-    one, other = seamed.joined
-    f, g = seamed.sides.polygon[one], seamed.sides.polygon[other]
-    crossed = (seamed.mesh.corners[one] == seamed.mesh.corners[other]).astype(np.int64)
-    rows = np.concatenate((f, f + p))
-    columns = np.concatenate((g + p * crossed, g + p * (1 - crossed)))
-    cover = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(2 * p, 2 * p))
-    count, label = connected_components(cover, directed=False)
-    plus, minus = label[:p], label[p:]
-    piece = np.minimum(plus, minus)
-    lead = plus == piece
-    larger = 2 * np.bincount(piece, weights=lead, minlength=count) >= np.bincount(piece, minlength=count)
-    sign = np.where(lead == larger[piece], 1, -1).astype(np.int8)
-    sign[plus == minus] = 0
-    return sign
 
 
 def note_orientation(faults: Faults, sign: Signs, chart: Ints, name: Ints) -> None:
@@ -138,7 +109,7 @@ def turned(seamed: SeamedMesh, sign: Signs) -> tuple[SeamedMesh, Ints]:
         return np.where(old >= 0, place[np.maximum(old, 0)], old)
 
     turned_sides = PolygonSides(
-        sides.follow, sides.polygon, sides.key, sides.edge[side], sides.count, renumbered(sides.twin)
+        sides.follow, sides.polygon, sides.key, sides.edge[side], renumbered(sides.twin)
     )
     turned_mesh = PolygonMesh(mesh.V, mesh.corners[corner], mesh.starts)
     return SeamedMesh(turned_mesh, turned_sides, seamed.seam, renumbered(seamed.twin)), corner

@@ -1,4 +1,4 @@
-"""Half-edges and edges of a triangle mesh, from one sort.
+"""Sides of faces paired along their edges, from one sort; the sides of triangles are called half-edges.
 
 Half-edge ``c * m + f`` runs from corner c of face f to corner c + 1 (mod 3); opposite to it lies corner c + 2.
 """
@@ -11,22 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-__all__ = ["HalfEdges", "half_edges", "sorted_pairs"]
+__all__ = ["HalfEdges", "half_edges", "joined_pairs", "paired_sides", "sorted_pairs"]
 
 
 @dataclass(frozen=True, eq=False)
 class HalfEdges:
-    """Edges in order of (lower vertex, higher vertex), and the half-edges on each.
+    """Edges in order of (lower vertex, higher vertex), and the half-edges (or sides of polygons, k of them) on each.
 
     Attributes
     ----------
     lo, hi : (e,) int32
         The two vertices of each edge, lo < hi; sorted, so an edge list is a lower triangular CSC pattern.
-    edge : (3 m,) int32
+    edge : (k,) int32
         The edge of each half-edge.
     count : (e,) int8
         Number of half-edges on each edge, at most 127 (2 inside a manifold, 1 on its boundary).
-    twin : (3 m,) int32
+    twin : (k,) int32
         The other half-edge of the same edge; -1 where the edge has one half-edge, -2 where three or more.
     """
 
@@ -38,9 +38,12 @@ class HalfEdges:
 
 
 def half_edges(corners: NDArray[np.int32], n: int) -> HalfEdges:
-    """Pair the half-edges of the faces ``corners`` (3, m) over n vertices."""
-    tail = corners.reshape(-1)
-    head = corners[[1, 2, 0]].reshape(-1)
+    """Pair the half-edges of the triangles ``corners`` (3, m) over n vertices."""
+    return paired_sides(corners.reshape(-1), corners[[1, 2, 0]].reshape(-1), n)
+
+
+def paired_sides(tail: NDArray[np.integer], head: NDArray[np.integer], n: int) -> HalfEdges:
+    """Pair sides that run between the same two vertices; `head` (k,), a fresh array, is used up."""
     lo, hi = np.minimum(tail, head), np.maximum(tail, head, out=head)
     order = sorted_pairs(lo, hi, int(n))
     lo, hi = lo.take(order), hi.take(order)
@@ -61,6 +64,12 @@ def half_edges(corners: NDArray[np.int32], n: int) -> HalfEdges:
     if count.max() > 2:
         twin[(count > 2)[edge]] = -2
     return HalfEdges(lo.take(start), hi.take(start), edge, np.minimum(count, 127).astype(np.int8), twin)
+
+
+def joined_pairs(twin: NDArray[np.integer]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Sides and the ones across them, each pair once."""
+    one = np.flatnonzero(twin > np.arange(len(twin), dtype=twin.dtype))
+    return one, twin.take(one).astype(np.int64, copy=False)
 
 
 def sorted_pairs(lo: NDArray[np.integer], hi: NDArray[np.integer], n: int) -> NDArray[np.int32]:

@@ -1,9 +1,11 @@
-"""Boundary loops, traced all at once by pointer doubling."""
+"""Boundary loops, traced all at once."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .loop_order import loop_order
 
 __all__ = ["boundary_loops"]
 
@@ -32,16 +34,6 @@ def boundary_loops(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> list[
     previous = np.empty(len(h), dtype=np.int64)
     previous[place[np.searchsorted(tail, head, sorter=place)]] = np.arange(len(h))
 
-    root, jump = np.arange(len(h)), previous.copy()
-    rounds = int(len(h) - 1).bit_length()
-    for _ in range(rounds):  # the smallest half-edge of each loop
-        root = np.minimum(root, root[jump])
-        jump = jump[jump]
-    is_root = root == np.arange(len(h))
-    jump = np.where(is_root, np.arange(len(h)), previous)
-    distance = (~is_root).astype(np.int64)
-    for _ in range(rounds):  # steps from it
-        distance += distance[jump]
-        jump = jump[jump]
-    order = np.lexsort((distance, root))
-    return np.split(tail[order], np.flatnonzero(distance[order] == 0)[1:])
+    loop, steps = loop_order(previous)
+    order = np.lexsort((steps, loop))
+    return np.split(tail[order], np.flatnonzero(steps[order] == 0)[1:])

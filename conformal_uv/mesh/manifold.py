@@ -8,8 +8,9 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from ..errors import DegenerateFaceError, DuplicateFaceError, NonManifoldError, OrientationError, listed
+from .fans import corner_links, pinched_vertices
 from .geometry import TriangleGeometry
-from .halfedges import HalfEdges
+from .halfedges import HalfEdges, joined_pairs
 from .orientation import disagreeing_pairs, face_signs
 
 __all__ = [
@@ -19,7 +20,6 @@ __all__ = [
     "check_orientation",
     "face_components",
     "is_face_connected",
-    "split_vertices",
 ]
 
 
@@ -50,9 +50,10 @@ def check_edges(corners: NDArray[np.int32], edges: HalfEdges) -> None:
 
 def check_orientation(corners: NDArray[np.int32], edges: HalfEdges) -> None:
     """Raise OrientationError naming the faces wound against the rest, or saying that there is one side only."""
-    if not len(disagreeing_pairs(corners, edges.twin)):
+    vertex, m = corners.reshape(-1), corners.shape[1]
+    if not len(disagreeing_pairs(vertex, edges.twin)):
         return
-    sign = face_signs(corners, edges.twin)
+    sign = face_signs(vertex, np.arange(3 * m) % m, edges.twin, m)
     if (sign == 0).any():
         one_sided = np.flatnonzero(sign == 0)
         raise OrientationError(
@@ -70,47 +71,16 @@ def check_orientation(corners: NDArray[np.int32], edges: HalfEdges) -> None:
 
 def check_fans(corners: NDArray[np.int32], edges: HalfEdges, n: int) -> None:
     """Raise NonManifoldError where the faces around a vertex form more than one fan."""
-    bad = np.unique(corners.reshape(-1)[split_vertices(corners, edges, n)[1]])
+    half_edge = np.arange(len(edges.twin))
+    following = (half_edge + corners.shape[1]) % len(half_edge)
+    vertex = corners.reshape(-1).astype(np.int64)
+    bad = pinched_vertices(vertex, *corner_links(vertex, following, *joined_pairs(edges.twin)), n)
     if len(bad):
         raise NonManifoldError(
             f"{len(bad)} vertices join pieces that touch only there: vertices {listed(bad)}. "
             "Split each into one vertex for every fan of faces.",
             bad,
         )
-
-
-def split_vertices(
-    corners: NDArray[np.int32], edges: HalfEdges, n: int
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """A number for every fan of faces at every vertex.
-
-    Returns
-    -------
-    fan : (3 m,) int64
-        The fan of each corner: the vertex itself for its first fan, n, n + 1, ... for the others.
-    extra : (k,) int64
-        One corner of each of the other fans; empty on a manifold.
-    """
-    tail = corners.reshape(-1)
-    m = corners.shape[1]
-    h = np.flatnonzero(edges.twin >= 0)
-    h = h[h < edges.twin[h]]
-    g = edges.twin[h].astype(np.int64)
-    h_next, g_next = (h + m) % (3 * m), (g + m) % (3 * m)
-    same = tail[h] == tail[g]  # the neighbour is wound the other way
-    rows = np.concatenate((h, h_next))
-    columns = np.concatenate((np.where(same, g, g_next), np.where(same, g_next, g)))
-    graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(3 * m, 3 * m))
-    count, label = connected_components(graph, directed=False)
-    first = np.full(count, 3 * m, dtype=np.int64)  # the first corner of each fan
-    np.minimum.at(first, label, np.arange(3 * m))
-    vertex = tail[first].astype(np.int64)
-    order = np.lexsort((first, vertex))
-    later = order[1:][vertex[order[1:]] == vertex[order[:-1]]]
-    name = vertex.copy()
-    later = later[np.argsort(first[later])]
-    name[later] = n + np.arange(len(later))
-    return name[label], first[later]
 
 
 def is_face_connected(corners: NDArray[np.int32], edges: HalfEdges) -> bool:

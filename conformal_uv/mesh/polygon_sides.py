@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .halfedges import sorted_pairs
+from .halfedges import paired_sides
 from .polygons import PolygonMesh
 
 __all__ = ["PolygonSides", "edge_keys", "following_corners", "polygon_sides"]
@@ -33,8 +33,6 @@ class PolygonSides:
         ``edge_keys`` of the edges, increasing.
     edge : (k,) int64
         The edge of each side.
-    count : (e,) int64
-        Number of sides on each edge.
     twin : (k,) int64
         The other side of the same edge; -1 where the edge has one side, -2 where three or more.
     """
@@ -43,30 +41,16 @@ class PolygonSides:
     polygon: Ints
     key: Ints
     edge: Ints
-    count: Ints
     twin: Ints
 
 
 def polygon_sides(mesh: PolygonMesh) -> PolygonSides:
     """Pair the sides of the polygons; at least one polygon, every polygon with at least one corner."""
     follow, n = following_corners(mesh), len(mesh.V)
-    head = mesh.corners[follow]
-    order = sorted_pairs(np.minimum(mesh.corners, head), np.maximum(mesh.corners, head), n)
-    key = edge_keys(mesh.corners, head, n)[order]
-    first = np.ones(len(key), dtype=bool)
-    np.not_equal(key[1:], key[:-1], out=first[1:])
-    start = np.flatnonzero(first)
-    count = np.diff(start, append=len(key))
-    edge = np.empty(len(key), dtype=np.int64)
-    edge[order] = np.cumsum(first) - 1
-    twin = np.full(len(key), -1, dtype=np.int64)
-    pair = start[count == 2]
-    twin[order[pair]] = order[pair + 1]
-    twin[order[pair + 1]] = order[pair]
-    if count.max() > 2:
-        twin[(count > 2)[edge]] = -2
+    pairs = paired_sides(mesh.corners, mesh.corners[follow], n)
     polygon = np.repeat(np.arange(len(mesh.sizes)), mesh.sizes)
-    return PolygonSides(follow, polygon, key[start], edge, count, twin)
+    edge, twin = pairs.edge.astype(np.int64), pairs.twin.astype(np.int64)
+    return PolygonSides(follow, polygon, edge_keys(pairs.lo, pairs.hi, n), edge, twin)
 
 
 def following_corners(mesh: PolygonMesh) -> Ints:
@@ -76,7 +60,7 @@ def following_corners(mesh: PolygonMesh) -> Ints:
     return follow
 
 
-def edge_keys(a: Ints, b: Ints, n: int) -> Ints:
+def edge_keys(a: NDArray[np.integer], b: NDArray[np.integer], n: int) -> Ints:
     """A number for each unordered pair of vertices below n: ``min * n + max``."""
     key = np.minimum(a, b).astype(np.int64)
     key *= n

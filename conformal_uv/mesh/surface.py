@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,7 +26,7 @@ __all__ = ["Surface"]
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """An oriented 2-manifold triangle mesh, every vertex used.
+    """An oriented 2-manifold triangle mesh, every vertex used. Its arrays are not writeable.
 
     Attributes
     ----------
@@ -52,6 +53,12 @@ class Surface:
     loops: list[NDArray[np.int64]]
     pieces: int
     unit: float
+
+    def __post_init__(self) -> None:
+        edges, geometry = self.edges, self.geometry
+        held: list[NDArray[Any]] = [self.V, self.corners, geometry.dot, geometry.double_area, *self.loops]
+        for array in [*held, edges.lo, edges.hi, edges.edge, edges.count, edges.twin]:
+            array.setflags(write=False)
 
     @classmethod
     def from_arrays(cls, V: ArrayLike, F: ArrayLike) -> Surface:
@@ -86,6 +93,43 @@ class Surface:
             pieces, _ = face_components(corners, n)
         vertices, unit = scaled(vertices)
         return cls(vertices, corners, edges, triangle_geometry(vertices, corners), loops, pieces, unit)
+
+    def without_vertex(self, vertex: int) -> tuple[Surface, NDArray[np.int64]]:
+        """A closed surface without the star of a vertex, and the vertices that are left, in their order."""
+        kept = np.delete(np.arange(self.n), vertex)
+        number = np.full(self.n, -1, dtype=np.int32)
+        number[kept] = np.arange(len(kept), dtype=np.int32)
+        faces = np.flatnonzero((self.corners != vertex).all(axis=0))
+        return self._changed(self.V[kept], number[self.corners[:, faces]], faces), kept
+
+    def without_face(self, face: int) -> Surface:
+        """A closed surface without one of its faces."""
+        faces = np.delete(np.arange(self.m), face)
+        return self._changed(self.V, self.corners[:, faces], faces)
+
+    def capped(self) -> Surface:
+        """The surface with its loops closed by a vertex in the middle of each, joined to all of the loop.
+
+        The caps' vertices and faces follow its own.
+        """
+        V, corners = [self.V], [self.corners]
+        for number, loop in enumerate(self.loops):
+            apex = np.full(len(loop), self.n + number)
+            V.append(self.V[loop].mean(axis=0, keepdims=True))
+            corners.append(np.stack((np.roll(loop, -1), loop, apex)).astype(np.int32))
+        return self._changed(np.concatenate(V), np.concatenate(corners, axis=1))
+
+    def _changed(
+        self, V: NDArray[np.float64], corners: NDArray[np.int32], kept: NDArray[np.int64] | None = None
+    ) -> Surface:
+        """Other vertices and faces of the same pieces, known to be a manifold; `kept` where the faces are some of
+        this surface's."""
+        edges = half_edges(corners, len(V))
+        if kept is None:
+            geometry = triangle_geometry(V, corners)
+        else:
+            geometry = TriangleGeometry(self.geometry.dot[:, kept], self.geometry.double_area[kept])
+        return Surface(V, corners, edges, geometry, boundary_loops(corners, edges.twin), self.pieces, self.unit)
 
     @property
     def degenerate(self) -> NDArray[np.int64]:

@@ -46,15 +46,11 @@ def linear_sphere(surface: Surface, laplacian: str, backend: str, progress: Prog
     itself to the pole.
     """
     vertex = most_regular_vertex(surface)
-    keep = (surface.corners != vertex).all(axis=0)
-    rest = np.delete(np.arange(surface.n), vertex)
-    number = np.full(surface.n, -1, dtype=np.int64)
-    number[rest] = np.arange(len(rest))
-    disk = Surface.from_arrays(surface.V[rest], number[surface.corners[:, keep]].T)
+    disk, rest = surface.without_vertex(vertex)
     progress("assembly", 0.0)
     edges = edge_laplacian(disk.corners, disk.edges, disk.geometry, disk.n, laplacian)
     problem = DirichletProblem(
-        edges, disk.require_disk(), disk.n, points=disk.V, backend=backend, progress=progress
+        edges, disk.loops[0], disk.n, points=disk.V, backend=backend, progress=progress
     )
     progress("linear", 0.0)
     measure = centred_measure(disk, problem)

@@ -53,7 +53,7 @@ def _unfolded_about(
     turn = turn_to_pole(middle[base])
     z = to_plane(x @ turn.T)
     reach = float(np.abs(z[corners[:, base]]).max())
-    disk = Surface.from_arrays(surface.V, np.delete(surface.F, base, axis=0))
+    disk = surface.without_face(base)
     z = z / reach
     flat, _ = repaired(disk, z, flipped_faces(z, disk.corners), disk.loops[0], progress)
     return from_plane(flat * reach) @ turn

@@ -19,7 +19,6 @@ from ..operators.edge_laplacian import LAPLACIANS, EdgeLaplacian, edge_laplacian
 from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
 from ..progress import Callback, Progress
 from .augmented_lagrangian import SphereProblem
-from .cap import capped
 from .centring import centred, landmark_aligned, principal_rotation, surface_rotation, unit
 from .energy import SphereEnergy
 from .newton import SphereNewton, minimise_sphere_energy
@@ -117,7 +116,7 @@ def sphere_map(
     surface = Surface.from_arrays(V, F)
     n, m = surface.n, surface.m
     if boundary == "cap" and surface.loops:
-        surface = Surface.from_arrays(*capped(surface))
+        surface = surface.capped()
     _require_sphere(surface)
     marks = _landmarks(landmarks, n)
     mass = lumped_areas(surface.geometry, surface.corners, surface.n)
