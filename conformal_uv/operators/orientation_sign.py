@@ -1,4 +1,4 @@
-"""Exact signs of the areas of plane triangles with floating-point corners.
+"""Exact signs of the areas of triangles with floating-point corners, in the plane or seen from inside a sphere.
 
 J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997: the
 rounded determinant has the right sign when it exceeds a bound on its error; the few others are computed exactly.
@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 
 from ..mesh.blocks import blocks
 
-__all__ = ["flipped_faces", "orientation_signs"]
+__all__ = ["flipped_faces", "inverted_faces", "orientation_signs", "outward_signs"]
 
 EPS = 0.5 * np.finfo(np.float64).eps
 ERROR_BOUND = (3.0 + 16.0 * EPS) * EPS
+# Of a . ((b - a) x (c - a)): two differences, two products, a difference, a product and two sums, each wrong by EPS.
+VOLUME_BOUND = 9.0 * EPS
 
 
 def orientation_signs(uv: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int8]:
@@ -49,18 +51,71 @@ def orientation_signs(uv: NDArray[np.float64], corners: NDArray[np.int32]) -> ND
     return signs
 
 
+def outward_signs(x: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int8]:
+    """+1 for triangles that are anticlockwise seen from outside a sphere around the origin, -1 for clockwise, 0 for
+    those in one plane with the origin.
+
+    Parameters
+    ----------
+    x : (n, 3) float64
+        Finite positions; the signs are those of exactly these numbers.
+    corners : (3, m) int32
+
+    Returns
+    -------
+    (m,) int8
+    """
+    columns = np.ascontiguousarray(x.T)
+    signs = np.empty(corners.shape[1], dtype=np.int8)
+    unsure = []
+    for part in blocks(len(signs)):
+        here = corners[:, part].astype(np.intp)
+        a, b, c = (columns.take(corner, axis=1) for corner in here)
+        u, v = b - a, c - a
+        volume, size = np.zeros(here.shape[1]), np.zeros(here.shape[1])
+        for i in range(3):
+            left, right = u[i - 2] * v[i - 1], u[i - 1] * v[i - 2]
+            volume += a[i] * (left - right)
+            size += np.abs(a[i]) * (np.abs(left) + np.abs(right))
+        signs[part] = np.sign(volume)
+        unsure.append(part.start + np.flatnonzero(np.abs(volume) <= VOLUME_BOUND * size))
+    doubtful = np.concatenate(unsure) if unsure else np.empty(0, dtype=np.int64)
+    if len(doubtful):
+        signs[doubtful] = _exact_volumes(x, corners[:, doubtful])
+    return signs
+
+
 def flipped_faces(z: NDArray[np.complex128], corners: NDArray[np.int32]) -> NDArray[np.int64]:
     """Faces with non-positive area in the plane, decided exactly."""
     return np.flatnonzero(orientation_signs(np.ascontiguousarray(z).view(np.float64).reshape(-1, 2), corners) <= 0)
 
 
+def inverted_faces(x: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Faces that are not anticlockwise seen from outside a sphere around the origin, decided exactly."""
+    return np.flatnonzero(outward_signs(x, corners) <= 0)
+
+
+def _apart(points: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Triangles without two equal corners."""
+    a, b, c = (points[corner] for corner in corners)
+    return np.flatnonzero((a != b).any(axis=1) & (b != c).any(axis=1) & (c != a).any(axis=1))
+
+
+def _exact_volumes(x: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int8]:
+    """Signs of a . (b x c) in rational arithmetic."""
+    out = np.zeros(corners.shape[1], dtype=np.int8)
+    for k in _apart(x, corners):
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (map(Fraction, x[v].tolist()) for v in corners[:, k])
+        volume = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+        out[k] = (volume > 0) - (volume < 0)
+    return out
+
+
 def _exact(uv: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int8]:
     """The same in rational arithmetic; triangles with two equal corners need none."""
-    a, b, c = uv[corners[0]], uv[corners[1]], uv[corners[2]]
     out = np.zeros(corners.shape[1], dtype=np.int8)
-    apart = (a != b).any(axis=1) & (b != c).any(axis=1) & (c != a).any(axis=1)
-    for k in np.flatnonzero(apart):
-        (ax, ay), (bx, by), (cx, cy) = ((Fraction(p[0]), Fraction(p[1])) for p in (a[k], b[k], c[k]))
+    for k in _apart(uv, corners):
+        (ax, ay), (bx, by), (cx, cy) = (map(Fraction, uv[v].tolist()) for v in corners[:, k])
         area = (ax - cx) * (by - cy) - (ay - cy) * (bx - cx)
         out[k] = (area > 0) - (area < 0)
     return out

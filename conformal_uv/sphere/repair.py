@@ -7,21 +7,16 @@ from numpy.typing import NDArray
 
 from ..disk.repair import repaired
 from ..mesh.surface import Surface
-from ..operators.orientation_sign import flipped_faces
+from ..operators.orientation_sign import flipped_faces, inverted_faces
 from ..progress import Progress
 from .centring import turn_to_pole, unit
 from .stereographic import from_plane, to_plane
 
-__all__ = ["inverted_faces", "unfolded"]
+__all__ = ["unfolded"]
 
 Real = NDArray[np.float64]
 
 MOST_TURNS = 30  # folds to project around
-
-
-def inverted_faces(x: Real, corners: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Faces that are not anticlockwise seen from outside."""
-    return np.flatnonzero(_volumes(x, corners) <= 0.0)
 
 
 def unfolded(surface: Surface, x: Real, progress: Progress) -> Real:
@@ -57,9 +52,3 @@ def _unfolded_about(
     z = z / reach
     flat, _ = repaired(disk, z, flipped_faces(z, disk.corners), disk.loops[0], progress)
     return from_plane(flat * reach) @ turn
-
-
-def _volumes(x: Real, corners: NDArray[np.int32]) -> Real:
-    """Six times the signed volume of the tetrahedron from the origin to each face."""
-    a, b, c = (x[corner] for corner in corners)
-    return np.einsum("ij,ij->i", a, np.cross(b, c))

@@ -16,6 +16,7 @@ from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, EdgeLaplacian, edge_laplacian
+from ..operators.orientation_sign import inverted_faces
 from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
 from ..progress import Callback, Progress
 from .augmented_lagrangian import SphereProblem
@@ -23,7 +24,7 @@ from .centring import centred, landmark_aligned, principal_rotation, surface_rot
 from .energy import SphereEnergy
 from .newton import SphereNewton, minimise_sphere_energy
 from .puncture import linear_sphere, most_regular_vertex
-from .repair import inverted_faces, unfolded
+from .repair import unfolded
 from .result import SphereMap
 
 __all__ = ["sphere_map"]
