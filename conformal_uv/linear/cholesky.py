@@ -9,9 +9,14 @@ from scipy.sparse.linalg import splu
 
 from ..errors import SolverError
 from ..progress import Progress
+from .cvxopt_options import cholmod_options
 from .linear_system import LowerTriangle
 
 __all__ = ["Cholmod", "SuperLU"]
+
+FAILURES = (ArithmeticError, MemoryError, RuntimeError, TypeError, ValueError)  # what the libraries raise
+KEEP_ORDER = {"nmethods": 1}  # the given order, without trying others
+MANY = 20_000  # unknowns, from which on sparse right-hand sides are the faster ones
 
 
 class Cholmod:
@@ -29,34 +34,47 @@ class Cholmod:
         del columns, rows
         matrix.taken_over()
         self._n, self._dense, self._sparse, self._cholmod = matrix.n, dense, spmatrix, cholmod
-        if order is None:
-            self._factor = cholmod.symbolic(lower, uplo="L")
-        else:
-            methods = cholmod.options.get("nmethods", 0)
-            cholmod.options["nmethods"] = 1  # the given order, without trying others
-            try:
-                self._factor = cholmod.symbolic(lower, p=dense(order.astype(np.int64)), uplo="L")
-            finally:
-                cholmod.options["nmethods"] = methods
+        given = {} if order is None else {"p": dense(order.astype(np.int64))}
+        try:
+            with cholmod_options(**({} if order is None else KEEP_ORDER)):
+                self._factor = cholmod.symbolic(lower, uplo="L", **given)
+        except FAILURES as error:
+            raise _failed(matrix.n, error) from error
         progress("factorization", 0.0)
         try:
-            cholmod.numeric(lower, self._factor)
-        except ArithmeticError as error:
-            raise _singular(matrix.n, error) from error
+            with cholmod_options():
+                cholmod.numeric(lower, self._factor)
+        except FAILURES as error:
+            raise _failed(matrix.n, error) from error
         progress("factorization", 1.0)
 
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
         columns = self._dense(rhs.reshape(len(rhs), -1))
-        self._cholmod.solve(self._factor, columns)
+        try:
+            with cholmod_options():
+                self._cholmod.solve(self._factor, columns)
+        except FAILURES as error:
+            raise _failed(self._n, error) from error
         return np.array(columns).reshape(rhs.shape)
 
     def solve_at(self, rows: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """CHOLMOD takes the columns of a sparse right-hand side together, dense ones one after the other."""
+        """CHOLMOD takes the columns of a sparse right-hand side together, dense ones one after the other.
+
+        That pays for many unknowns. For few it does not, and cvxopt's spsolve (1.3.3) loses some bytes at every call.
+        """
         n, k = self._n, values.shape[1]
+        if n < MANY:
+            rhs = np.zeros((n, k))
+            rhs[rows] = values
+            return self.solve(rhs)
         columns = np.repeat(np.arange(k), len(rows))
         entries = self._dense(np.ascontiguousarray(values.T).reshape(-1))
         sparse = self._sparse(entries, self._dense(np.tile(rows, k)), self._dense(columns), (n, k))
-        found = self._cholmod.spsolve(self._factor, sparse)
+        try:
+            with cholmod_options():
+                found = self._cholmod.spsolve(self._factor, sparse)
+        except FAILURES as error:
+            raise _failed(n, error) from error
         out = np.array(found.V).reshape(-1)
         if len(out) < n * k:  # entries that came out 0 are left out
             full = np.zeros(n * k)
@@ -98,8 +116,8 @@ class SuperLU:
                 diag_pivot_thresh=0.0,
                 options={"SymmetricMode": True},
             )
-        except RuntimeError as error:
-            raise _singular(n, error) from error
+        except FAILURES as error:
+            raise _failed(n, error) from error
         progress("factorization", 1.0)
 
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -119,7 +137,12 @@ class SuperLU:
         """Solutions are too fast to tell of."""
 
 
-def _singular(n: int, error: Exception) -> SolverError:
+def _failed(n: int, error: Exception) -> SolverError:
+    if isinstance(error, MemoryError):
+        return SolverError(
+            f"There is not enough memory to factorize the Laplacian of {n} interior vertices; "
+            'use backend="multigrid" (pip install "conformal-uv[large]"), or fewer vertices.'
+        )
     return SolverError(
         f"The Laplacian of {n} interior vertices is singular to working precision ({error}); "
         "the mesh has faces too thin for it."

@@ -78,7 +78,10 @@ class Multigrid:
         progress("factorization", 0.0)
         self._matrix = _full(matrix)
         matrix.taken_over()
-        self._hierarchy = _hierarchy(self._matrix)
+        try:
+            self._hierarchy = _hierarchy(self._matrix)
+        except (ArithmeticError, MemoryError, RuntimeError, TypeError, ValueError) as error:
+            raise self._failed(f"The multigrid hierarchy can not be built ({error})") from error
         progress("factorization", 1.0)
 
     def solve(self, rhs: Real) -> Real:
