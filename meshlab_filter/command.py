@@ -14,6 +14,7 @@ from conformal_uv.cli import choices
 from conformal_uv.cli.stages import Stages
 from conformal_uv.cli.summary import print_summary
 from conformal_uv.files import replaced_file
+from conformal_uv.interrupt import interruptible
 
 from .conversion import CHECKER, Conversion, check_filter_script, convert
 from .library import pymeshlab
@@ -36,6 +37,7 @@ class Quality(StrEnum):
 
 
 @app.command()
+@interruptible
 def disk(
     sources: Annotated[list[Path], typer.Argument(metavar="IN...", help="Meshes in any format pymeshlab reads.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="OBJ, PLY, DAE or OFF file, or a folder.")],

@@ -5,12 +5,21 @@ from __future__ import annotations
 import importlib.util
 import logging
 import sys
+from collections.abc import Callable
+
+from conformal_uv.interrupt import quiet_interrupt
 
 __all__ = ["main"]
 
 
 def main() -> None:
     """Run the script; say what to install when its libraries are missing."""
+    with quiet_interrupt():
+        app = _loaded()
+    app(prog_name="conformal-uv-meshlab")
+
+
+def _loaded() -> Callable[..., None]:
     missing = [name for name in ("pymeshlab", "typer", "rich") if importlib.util.find_spec(name) is None]
     if missing:
         sys.stderr.write(
@@ -25,4 +34,4 @@ def main() -> None:
         sys.stderr.write(f"conformal-uv-meshlab: {error}\n")
         raise SystemExit(1) from error
     logging.getLogger(__package__).addHandler(logging.NullHandler())  # the script tells all that is logged
-    app(prog_name="conformal-uv-meshlab")
+    return app

@@ -10,6 +10,7 @@ import typer
 
 from .._version import __version__
 from ..errors import ConformalUVError
+from ..interrupt import interruptible
 from .disk import disk
 from .report import report
 from .sample import sample
@@ -61,4 +62,4 @@ def options(
 
 
 for command in (disk, sphere, report, sample):
-    app.command()(_told(command))
+    app.command()(interruptible(_told(command)))

@@ -1,0 +1,5 @@
+"""``python -m conformal_uv``."""
+
+from .cli.entry import main
+
+main()
