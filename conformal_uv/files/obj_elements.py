@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,9 +54,7 @@ def scan_elements(lines: TextLines, chosen: Ints) -> Elements:
         A word is not a corner.
     """
     sizes = lines.counts[chosen] - 1
-    begin = int(lines.starts[chosen[0]]) if len(chosen) else 0
-    end = int(lines.ends[chosen[-1]]) if len(chosen) else 0
-    text = _only(lines, chosen, begin, end)
+    text, places = _only(lines, chosen)
     digit = (text - ZERO) < 10
     edges = np.flatnonzero(digit[1:] != digit[:-1]) + 1
     starts, ends = edges[::2], edges[1::2]
@@ -73,31 +72,39 @@ def scan_elements(lines: TextLines, chosen: Ints) -> Elements:
         raise _malformed(lines, chosen)
     at = np.flatnonzero(texture)
     corner = np.cumsum(opens)[at] - 1
-    vertex_end = ends[opens] + (begin - 3)
+    vertex_end = places(ends[opens])
     texture_end = vertex_end + (lines.text[vertex_end] == SLASH)
-    texture_end[corner] = ends[at] + (begin - 3)
+    texture_end[corner] = places(ends[at])
     indices = np.zeros(len(vertex_end), np.int64)
     indices[corner] = _integers(text, starts[at], ends[at], negative[at])
     vertex = _integers(text, starts[opens], ends[opens], negative[opens])
     return Elements(chosen, sizes, vertex, indices, vertex_end, texture_end)
 
 
-def _only(lines: TextLines, chosen: Ints, begin: int, end: int) -> NDArray[np.uint8]:
-    """The text from begin to end, all but the chosen lines' corners blank, padded on both sides."""
-    keep = np.zeros(len(lines.starts), dtype=bool)
-    keep[chosen] = True
-    within = slice(chosen[0], chosen[-1] + 1) if len(chosen) else slice(0, 0)
-    text = np.full(end - begin + 3 + DIGITS, BLANK, np.uint8)
-    body = text[3:3 + end - begin]
-    body[:] = lines.text[begin:end]
-    if not keep[within].all():
-        body[~np.repeat(keep[within], (lines.ends - lines.starts)[within])] = BLANK
-    body[lines.tokens[lines.first[chosen]] - begin] = BLANK  # the keyword, one letter
+def _only(lines: TextLines, chosen: Ints) -> tuple[NDArray[np.uint8], Callable[[Ints], Ints]]:
+    """The text of the chosen lines but for their keywords, run together and padded on both sides, and the way back:
+    places in the file of (the ends of words at) places in it."""
+    begins, ends = lines.runs(chosen)
+    lengths = ends - begins
+    shift = begins - (np.cumsum(lengths) - lengths) - 3
+    text = np.full(int(lengths.sum()) + 3 + DIGITS, BLANK, np.uint8)
+    for at, begin, end in zip((begins - shift).tolist(), begins.tolist(), ends.tolist(), strict=True):
+        text[at : at + end - begin] = lines.text[begin:end]
+
+    def run_of(place: Ints) -> Ints:
+        return np.searchsorted(begins, place, side="right") - 1
+
+    keywords = lines.tokens[lines.first[chosen]]
+    text[keywords - shift[run_of(keywords)]] = BLANK  # one letter
     # "1/" and "1//": empty indices, as some programs write them
     for _ in range(2):
         open_slash = np.flatnonzero((text[:-1] == SLASH) & (text[1:] <= BLANK))
         text[open_slash] = BLANK
-    return text
+
+    def places(found: Ints) -> Ints:
+        return found + shift[np.searchsorted(begins - shift, found - 1, side="right") - 1]
+
+    return text, places
 
 
 def _after(flag: NDArray[np.bool_]) -> NDArray[np.bool_]:

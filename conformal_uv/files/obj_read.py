@@ -6,6 +6,7 @@ names may be in any encoding.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,6 +22,9 @@ from conformal_uv.mesh.polygons import PolygonMesh
 __all__ = ["ObjSource", "parse_obj", "read_obj"]
 
 Ints = NDArray[np.int64]
+
+LOWER_CASE = 0x20
+HIDDEN_VERTEX = re.compile(rb"[^A-Za-z\s]*[vV][^A-Za-z\s]*(\s|$)")
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +69,7 @@ def parse_obj(path: Path, data: bytes) -> tuple[ObjSource, NDArray[np.float64] |
     lines = TextLines(path, data)
     is_v, is_vt = lines.keyword_lines(b"v"), lines.keyword_lines(b"vt")
     is_f = lines.keyword_lines(b"f")
+    _check_vertices(lines, is_v | is_vt | is_f)
     elements = scan_elements(lines, np.flatnonzero(is_f | _textured_polylines(lines)))
     is_face = is_f[elements.line]
     V = lines.floats(np.flatnonzero(is_v), 1, 3, 3)
@@ -79,6 +84,18 @@ def parse_obj(path: Path, data: bytes) -> tuple[ObjSource, NDArray[np.float64] |
     spans = np.stack([lines.starts[is_vt], np.minimum(lines.ends[is_vt], len(data))], axis=1)
     source = ObjSource(data, mesh, elements, is_face, texture, spans, int(lines.starts[elements.line[0]]))
     return source, _corner_uv(vt, texture[face_corner])
+
+
+def _check_vertices(lines: TextLines, known: NDArray[np.bool_]) -> None:
+    """Refuse a vertex whose keyword is hidden by its case, a stray byte or a missing blank."""
+    others = np.flatnonzero(~known)
+    letter, second = (lines.text[lines.tokens[lines.first[others]] + k] | LOWER_CASE for k in (0, 1))
+    plain = (letter >= ord("a")) & (letter <= ord("z"))
+    normal = np.isin(second, np.frombuffer(b"np", np.uint8))
+    for line in others[np.where(letter == ord("v"), ~normal, ~plain)].tolist():
+        at = int(lines.tokens[lines.first[line]])
+        if HIDDEN_VERTEX.match(lines.text[at : at + 16].tobytes()):
+            raise lines.error(line, "a vertex that is not understood; it must begin with v and a blank")
 
 
 def _textured_polylines(lines: TextLines) -> NDArray[np.bool_]:
