@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -12,25 +13,36 @@ from numpy.typing import NDArray
 
 from conformal_uv.errors import FileFormatError
 from conformal_uv.files.atomic import replaced_file
+from conformal_uv.files.checks import file_bytes
 from conformal_uv.files.corner_uv import checked_corner_uv
 from conformal_uv.files.mesh_file import MeshFile
 from conformal_uv.files.npz import read_npz, write_npz
 from conformal_uv.files.obj_read import read_obj
 from conformal_uv.files.obj_write import write_obj
 from conformal_uv.files.off import read_off
+from conformal_uv.files.other_formats import (
+    MESHIO_SUFFIXES,
+    TRIMESH_SUFFIXES,
+    read_with_meshio,
+    read_with_trimesh,
+)
 from conformal_uv.files.ply_read import read_ply
 from conformal_uv.files.ply_write import write_ply
 from conformal_uv.files.stl import read_stl
 
 __all__ = ["READABLE", "WRITABLE", "check_writable", "read_mesh", "write_mesh"]
 
-_READERS: dict[str, Callable[[Path], MeshFile]] = {
+_READERS: dict[str, Callable[[Path, bytes], MeshFile]] = {
     ".obj": read_obj,
     ".ply": read_ply,
     ".off": read_off,
     ".stl": read_stl,
     ".npz": read_npz,
+    **dict.fromkeys(TRIMESH_SUFFIXES, read_with_trimesh),
+    **dict.fromkeys(MESHIO_SUFFIXES, read_with_meshio),
 }
+PACKED = (".obj", ".ply", ".off", ".stl")  # also read with .gz behind
+STANDARD_STREAM = "-"
 _WRITERS: dict[str, Callable[[BinaryIO, MeshFile, NDArray[np.float64]], None]] = {
     ".obj": write_obj,
     ".ply": write_ply,
@@ -40,13 +52,15 @@ READABLE = tuple(_READERS)
 WRITABLE = tuple(_WRITERS)
 
 
-def read_mesh(path: str | os.PathLike[str]) -> MeshFile:
-    """Read a mesh: OBJ, PLY, OFF, STL or npz, by the file's suffix.
+def read_mesh(path: str | os.PathLike[str], *, format: str | None = None) -> MeshFile:
+    """Read a mesh by its suffix: OBJ, PLY, OFF, STL (also packed: .obj.gz), npz, GLB, glTF, 3MF, VTK, VTU.
 
     Parameters
     ----------
     path : path-like
-        The file.
+        The file; ``-`` is standard input.
+    format : str, optional
+        Of standard input, as a suffix without its dot; by default "obj".
 
     Returns
     -------
@@ -61,11 +75,23 @@ def read_mesh(path: str | os.PathLike[str]) -> MeshFile:
         The library for this format is not installed.
     """
     path = Path(path)
-    reader = _READERS.get(path.suffix.lower())
+    suffix = path.suffix.lower()
+    if str(path) == STANDARD_STREAM:
+        suffix = f".{format or 'obj'}"
+    elif suffix == ".gz" and Path(path.stem).suffix.lower() in PACKED:
+        suffix = Path(path.stem).suffix.lower()
+    reader = _READERS.get(suffix)
     if reader is None:
-        raise FileFormatError(f"{path}: files of the type {path.suffix!r} are not read; "
-                              f"use {', '.join(READABLE)}")
-    return reader(path)
+        raise FileFormatError(f"{path}: files of the type {suffix!r} are not read; use {', '.join(READABLE)}."
+                              f"{_converters()}")
+    return reader(path, file_bytes(path))
+
+
+def _converters() -> str:
+    """What can make a file readable."""
+    if importlib.util.find_spec("pymeshlab") is not None:
+        return " conformal-uv-meshlab reads what MeshLab reads (DAE, FBX, X3D, 3DS ...)"
+    return ' Blender, MeshLab or conformal-uv-meshlab (pip install "conformal-uv[meshlab]") can convert it'
 
 
 def write_mesh(path: str | os.PathLike[str], source: MeshFile, *, corner_uv: NDArray[np.float64]) -> None:

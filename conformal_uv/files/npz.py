@@ -12,26 +12,28 @@ from numpy.lib import format as npy
 from numpy.typing import NDArray
 
 from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import checked_mesh, file_bytes, foreign_parser
+from conformal_uv.files.checks import ALWAYS_TAKEN, MOST_PACKED, checked_mesh, foreign_parser
 from conformal_uv.files.corner_uv import filled_corner_uv, vertex_uv
 from conformal_uv.files.mesh_file import MeshFile
 
 __all__ = ["read_npz", "write_npz"]
 
 NAMES = ("V", "F", "corners", "starts", "uv", "corner_uv")
-DEFLATE_LIMIT = 1100
-"""Deflate packs no more than 1032 bytes into one; an archive that claims more is damaged."""
 
 
-def read_npz(path: Path) -> MeshFile:
+def read_npz(path: Path, data: bytes) -> MeshFile:
     """Read an archive of V (n, 3) and F (m, 3) (or (m, s) polygons), or V, corners (k,) and starts (p + 1,).
 
     Texture coordinates are taken from corner_uv (k, 2), else from uv (n, 2).
     """
-    data = file_bytes(path)
     with foreign_parser(path, "npz"), zipfile.ZipFile(io.BytesIO(data)) as archive:
         members = {name.removesuffix(".npy"): name for name in archive.namelist()}
-        arrays = {name: _array(path, archive, members[name], len(data)) for name in NAMES if name in members}
+        claimed = sum(archive.getinfo(members[name]).file_size for name in NAMES if name in members)
+        if claimed > max(MOST_PACKED * len(data), ALWAYS_TAKEN):
+            raise FileFormatError(
+                f"{path}: {len(data)} bytes that claim to hold {claimed}; the archive is damaged or no mesh"
+            )
+        arrays = {name: _array(path, archive, members[name]) for name in NAMES if name in members}
     V = _numbers(path, arrays, "V", "(n, 3)")
     if "F" in arrays and "corners" not in arrays:
         F = _whole(path, arrays, "F", 2)
@@ -63,10 +65,8 @@ def write_npz(stream: BinaryIO, source: MeshFile, corner_uv: NDArray[np.float64]
     np.savez(stream, allow_pickle=False, **arrays)
 
 
-def _array(path: Path, archive: zipfile.ZipFile, member: str, size: int) -> NDArray[Any]:
-    """One array, its size checked against the archive's before anything is allocated for it."""
-    if archive.getinfo(member).file_size > DEFLATE_LIMIT * size:
-        raise FileFormatError(f"{path}: {member!r} claims more data than the archive can hold; it is damaged")
+def _array(path: Path, archive: zipfile.ZipFile, member: str) -> NDArray[Any]:
+    """One array."""
     raw = archive.read(member)
     stream = io.BytesIO(raw)
     version = npy.read_magic(stream)

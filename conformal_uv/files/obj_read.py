@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.checks import checked_mesh, file_bytes
+from conformal_uv.files.checks import checked_mesh
 from conformal_uv.files.mesh_file import MeshFile
 from conformal_uv.files.obj_elements import Elements, scan_elements
 from conformal_uv.files.text_lines import TextLines
@@ -58,9 +58,9 @@ class ObjSource:
     first_element: int
 
 
-def read_obj(path: Path) -> MeshFile:
+def read_obj(path: Path, data: bytes) -> MeshFile:
     """Read an OBJ file: vertices, polygons and their texture coordinates."""
-    source, corner_uv = parse_obj(path, file_bytes(path))
+    source, corner_uv = parse_obj(path, data)
     return MeshFile(path, source.mesh, corner_uv, source)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import DAMAGED, checked_mesh, file_bytes
+from conformal_uv.files.checks import DAMAGED, checked_mesh
 from conformal_uv.files.mesh_file import MeshFile
 from conformal_uv.files.text_lines import TextLines, spans
 
@@ -24,9 +24,9 @@ WHOLE = re.compile(rb"-?\d{1,18}")
 HEADERS = {prefix + b"OFF" for prefix in (b"", b"C", b"N", b"CN", b"ST", b"STC", b"STN", b"STCN", b"NC")}
 
 
-def read_off(path: Path) -> MeshFile:
+def read_off(path: Path, data: bytes) -> MeshFile:
     """Read an OFF file: vertices and polygons. Colours, normals and texture coordinates are passed over."""
-    lines = TextLines(path, file_bytes(path))
+    lines = TextLines(path, data)
     inked = np.flatnonzero(lines.counts > 0)
     header = lines.words(inked[:1])
     if not header or header[0] not in HEADERS:

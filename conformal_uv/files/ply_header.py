@@ -9,7 +9,10 @@ from pathlib import Path
 from conformal_uv.errors import FileFormatError
 from conformal_uv.files.checks import DAMAGED
 
-__all__ = ["PlyElementHeader", "check_counts", "read_ply_header"]
+__all__ = ["PlyElementHeader", "check_counts", "read_ply_header", "unix_text"]
+
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+MOST_HEADER = 1 << 16
 
 END = re.compile(rb"^end_header[ \t]*\r?\n?", re.MULTILINE)
 BYTES = {"char": 1, "uchar": 1, "int8": 1, "uint8": 1, "short": 2, "ushort": 2, "int16": 2, "uint16": 2,
@@ -24,6 +27,15 @@ class PlyElementHeader:
     count: int
     lists: list[str] = field(default_factory=list)
     least_bytes: int = 0
+
+
+def unix_text(data: bytes) -> bytes:
+    """A text file without byte order mark and with LF at its lines' ends; a binary one as it is."""
+    data = data.removeprefix(BYTE_ORDER_MARK)
+    head = data[:MOST_HEADER].replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    if not head.startswith(b"ply\nformat ascii") or b"\r" not in data:
+        return data
+    return data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
 
 
 def read_ply_header(path: Path, data: bytes) -> tuple[list[PlyElementHeader], bool, int]:

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import checked_mesh, file_bytes, foreign_parser, missing_library
+from conformal_uv.files.checks import checked_mesh, foreign_parser, missing_library
 from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.ply_header import PlyElementHeader, check_counts, read_ply_header
+from conformal_uv.files.ply_header import PlyElementHeader, check_counts, read_ply_header, unix_text
 from conformal_uv.mesh.polygons import PolygonMesh
 
 __all__ = ["INDEX_LISTS", "VERTEX_UV", "WEDGE_UV", "PlySource", "read_ply"]
@@ -33,9 +33,9 @@ class PlySource:
         self.mesh = mesh
 
 
-def read_ply(path: Path) -> MeshFile:
+def read_ply(path: Path, data: bytes) -> MeshFile:
     """Read a PLY file: vertices, polygons, texture coordinates of vertices or of polygon corners."""
-    data = file_bytes(path)
+    data = unix_text(data)
     elements, text, begin = read_ply_header(path, data)
     check_counts(path, elements, len(data) - begin)
     with foreign_parser(path, "PLY"):
@@ -65,7 +65,7 @@ def _parsed(path: Path, data: bytes, elements: list[PlyElementHeader], text: boo
         raise missing_library("plyfile", ".ply") from error
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # numpy warns of an empty list in a text file
-        for size in () if text else (3, 4):
+        for size in () if text or path.suffix.lower() != ".ply" else (3, 4):  # mapped: a file of its own
             known = {e.name: dict.fromkeys(e.lists, size) for e in elements}
             if WEDGE_UV in known.get("face", {}):
                 known["face"][WEDGE_UV] = 2 * size

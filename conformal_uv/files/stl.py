@@ -12,17 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import DAMAGED, checked_mesh, file_bytes, foreign_parser, missing_library
+from conformal_uv.files.checks import DAMAGED, checked_mesh, foreign_parser, missing_library
 from conformal_uv.files.mesh_file import MeshFile
+from conformal_uv.files.weld import welded
 
 __all__ = ["read_stl"]
 
 
-def read_stl(path: Path) -> MeshFile:
+def read_stl(path: Path, data: bytes) -> MeshFile:
     """Read an STL file; its loose triangles are joined where corners have exactly the same position."""
-    data = file_bytes(path)
-    soup = _triangles(path, data)
-    V, corners = _welded(soup)
+    soup = _triangles(path, data.removeprefix(b"\xef\xbb\xbf"))
+    V, corners = welded(soup)
     return MeshFile(path, checked_mesh(path, V, corners, np.full(len(soup) // 3, 3, np.int64)))
 
 
@@ -32,7 +32,7 @@ def _triangles(path: Path, data: bytes) -> NDArray[np.float64]:
         from trimesh.exchange.stl import load_stl
     except ImportError as error:
         raise missing_library("trimesh", ".stl") from error
-    with foreign_parser(path, "STL"), warnings.catch_warnings():
+    with foreign_parser(path, "STL", "trimesh"), warnings.catch_warnings():
         warnings.simplefilter("error")  # trimesh reads numbers up to the first that is none, and only warns
         loaded = load_stl(io.BytesIO(data))
         solids: list[dict[str, Any]] = [loaded] if "faces" in loaded else list(loaded["geometry"].values())
@@ -47,18 +47,3 @@ def _triangles(path: Path, data: bytes) -> NDArray[np.float64]:
 
 def _is_binary(data: bytes) -> bool:
     return len(data) >= 84 and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
-
-
-def _welded(soup: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Positions in order of appearance, and the index of each corner among them. NaN equals nothing."""
-    order = np.lexsort((soup[:, 2], soup[:, 1], soup[:, 0]))
-    rows = soup[order]
-    new = np.ones(len(rows), dtype=bool)
-    new[1:] = (rows[1:] != rows[:-1]).any(axis=1)
-    example = order[new]  # the sort is stable: the first corner of each position
-    appearance = np.argsort(example)
-    rank = np.empty(len(example), np.int64)
-    rank[appearance] = np.arange(len(example))
-    corners = np.empty(len(soup), np.int64)
-    corners[order] = rank[np.cumsum(new) - 1]
-    return soup[example[appearance]], corners

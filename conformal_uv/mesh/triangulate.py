@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.errors import MeshError, listed
+from conformal_uv.mesh.large_polygons import cut_large_polygon
 from conformal_uv.mesh.polygons import PolygonMesh
 
 __all__ = ["triangulate"]
@@ -25,6 +26,12 @@ FLAT = 1e-9
 NEAR = 1e-7
 """A corner this close to an ear (part of the ear's height) makes it a poor one: it would leave a sliver."""
 
+LARGE = 256
+"""Corners, from which on a polygon goes through mapbox-earcut: clipping takes their number squared."""
+
+MOST_CLIPPED = 4096
+"""Corners of a polygon that is clipped where mapbox-earcut can not cut it."""
+
 BATCH = 1 << 20
 """Polygon corners clipped side by side, to bound the memory."""
 
@@ -35,7 +42,8 @@ def triangulate(mesh: PolygonMesh) -> tuple[Ints, Ints, Ints]:
     Triangles pass through. A quad is cut along the shorter of the diagonals that leave both triangles facing
     the polygon's (Newell) normal. Larger polygons are clipped ear by ear in the plane of their normal, best
     ear (largest smallest angle) first; a simple polygon, convex or not, comes out as a true triangulation.
-    A polygon that has none (self-crossing, without area) still gives size - 2 triangles.
+    A polygon that has none (self-crossing, without area) still gives size - 2 triangles. Polygons of 256 corners and
+    more go through mapbox-earcut, which takes them in O(n log n).
 
     Returns
     -------
@@ -79,7 +87,22 @@ def _cut(P: Floats) -> Ints:
         return np.tile(np.arange(3), (len(P), 1, 1))
     if size == 4:
         return _cut_quads(P)
-    return _clip_ears(_flattened(P))
+    flat = _flattened(P)
+    if size < LARGE:
+        return _clip_ears(flat)
+    return np.stack([_cut_large(polygon) for polygon in flat])
+
+
+def _cut_large(P: Floats) -> Ints:
+    """Triangles (size - 2, 3) of one plane polygon (size, 2); a fan where it crosses itself and is too large."""
+    triangles = cut_large_polygon(P)
+    if triangles is not None:
+        return triangles
+    size = len(P)
+    if size <= MOST_CLIPPED:
+        return np.asarray(_clip_ears(P[None])[0])
+    ring = np.arange(1, size - 1)
+    return np.column_stack((np.zeros_like(ring), ring, ring + 1))
 
 
 def _newell(P: Floats) -> Floats:
