@@ -13,6 +13,7 @@ from conformal_uv import ConformalUVError, OptionError
 from conformal_uv.cli import choices
 from conformal_uv.cli.stages import Stages
 from conformal_uv.cli.summary import print_summary
+from conformal_uv.cli.terminal import plain
 from conformal_uv.files import replaced_file
 from conformal_uv.interrupt import interruptible
 
@@ -75,7 +76,7 @@ def disk(
     try:
         targets = _checked(sources, target, suffix, texture, filter_script)
     except EXPECTED as error:
-        typer.echo(_told(error), err=True)
+        typer.echo(plain(_told(error)), err=True)
         raise typer.Exit(1) from error
     if not quiet and any(file.suffix.lower() == ".off" for file in targets):
         typer.echo("warning: MeshLab does not read the texture coordinates of .off files back", err=True)
@@ -85,7 +86,7 @@ def disk(
             out.write(json.dumps(told if len(told) > 1 else told[0], indent=2).encode())
     failures = [line for line in map(_failure, told) if line]
     for line in failures:
-        typer.echo(line, err=True)
+        typer.echo(plain(line), err=True)
     if failures:
         raise typer.Exit(1)
 
@@ -117,7 +118,7 @@ def _convert_all(
         except EXPECTED as error:
             told.append({"input": str(source), "error": _told(error)})
             if len(sources) > 1 and not quiet:
-                typer.echo(f"{source}: failed")
+                typer.echo(plain(f"{source}: failed"))
             continue
         told.append(numbers)
         if quiet:
@@ -125,7 +126,7 @@ def _convert_all(
         if len(sources) == 1:
             print_summary(numbers)
         else:
-            typer.echo(_line(numbers))
+            typer.echo(plain(_line(numbers)))
     return told
 
 

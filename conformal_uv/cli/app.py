@@ -15,6 +15,7 @@ from .disk import disk
 from .report import report
 from .sample import sample
 from .sphere import sphere
+from .terminal import plain
 
 __all__ = ["app"]
 
@@ -37,10 +38,10 @@ def _told(command: Callable[P, None]) -> Callable[P, None]:
             command(*args, **kwargs)
         except ConformalUVError as error:
             message = " ".join(str(error).split())
-            typer.echo(f"{type(error).__name__}: {message}", err=True)
+            typer.echo(plain(f"{type(error).__name__}: {message}"), err=True)
             raise typer.Exit(1) from error
         except OSError as error:
-            typer.echo(f"{type(error).__name__}: {error}", err=True)
+            typer.echo(plain(f"{type(error).__name__}: {error}"), err=True)
             raise typer.Exit(1) from error
 
     return run

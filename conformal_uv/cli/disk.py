@@ -18,6 +18,7 @@ from .numbers import three_numbers
 from .seams import read_seams
 from .stages import Stages
 from .summary import print_summary, unwrapped_summary
+from .terminal import plain
 
 __all__ = ["disk"]
 
@@ -105,7 +106,7 @@ def disk(
     if not quiet:
         print_summary(summary)
     if not result.mapped[result.chart_of_face >= 0].all():
-        typer.echo(result.summary, err=True)
+        typer.echo(plain(result.summary), err=True)
         raise typer.Exit(1)
 
 

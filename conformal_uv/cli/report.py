@@ -17,6 +17,7 @@ from ..mesh.geometry import triangle_geometry
 from ..mesh.triangulate import triangulate
 from ..operators.distortion import distortion_of
 from ..operators.laplacian import cotangent_weights
+from .stages import Stages
 from .summary import distortion_summary, print_rows
 
 __all__ = ["report"]
@@ -28,7 +29,8 @@ def report(
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table.")] = False,
 ) -> None:
     """Tell what a mesh is: its topology, angles, weights, and the distortion of its UVs."""
-    mesh_file = read_mesh(source)
+    with Stages(quiet=True):
+        mesh_file = read_mesh(source)
     F, _, corner_of = triangulate(mesh_file.mesh)
     summary: dict[str, Any] = {
         "input": str(source),
@@ -51,7 +53,8 @@ def report(
 def _surface_summary(surface: Surface) -> dict[str, Any]:
     geometry = surface.geometry
     angles = np.degrees(np.arctan2(geometry.double_area, geometry.dot))
-    weights = cotangent_weights(surface.edges, geometry)[surface.edges.count == 2]
+    with np.errstate(divide="ignore", invalid="ignore"):  # faces without area
+        weights = cotangent_weights(surface.edges, geometry)[surface.edges.count == 2]
     try:
         surface.require_disk()
         kind = "disk"

@@ -14,8 +14,12 @@ from numpy.typing import NDArray
 from .. import samples
 from ..files import MeshFile, check_writable, write_mesh
 from ..mesh.polygons import PolygonMesh
+from .terminal import plain
 
 __all__ = ["sample"]
+
+
+MOST_VERTICES = 50_000_000
 
 
 class SampleChoice(StrEnum):
@@ -40,7 +44,7 @@ MAKERS: dict[SampleChoice, Maker] = {
 def sample(
     kind: Annotated[SampleChoice, typer.Argument(help="The surface.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="OBJ, PLY or NPZ.")],
-    vertices: Annotated[int, typer.Option(min=16, help="Number of vertices, about.")] = 20000,
+    vertices: Annotated[int, typer.Option(min=16, max=MOST_VERTICES, help="Number of vertices, about.")] = 20000,
     seed: Annotated[int, typer.Option(min=0, help="Of the irregular triangulation.")] = 0,
 ) -> None:
     """Write a generated surface."""
@@ -49,4 +53,4 @@ def sample(
     corners = F.reshape(-1).astype(np.int64)
     mesh = PolygonMesh(V, corners, np.arange(0, len(corners) + 1, 3, dtype=np.int64))
     write_mesh(target, MeshFile(target, mesh), corner_uv=np.full((len(corners), 2), np.nan))
-    typer.echo(f"{target}: {len(V)} vertices, {len(F)} triangles")
+    typer.echo(plain(f"{target}: {len(V)} vertices, {len(F)} triangles"))

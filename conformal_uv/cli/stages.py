@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from types import TracebackType
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 
+from .terminal import WarningsOnStderr
+
 __all__ = ["Stages"]
+
+LOG = logging.getLogger("conformal_uv")
 
 
 class Stages:
@@ -29,6 +34,7 @@ class Stages:
         self.seconds: dict[str, float] = {}
         self._stage: str | None = None
         self._since = 0.0
+        self._warnings = WarningsOnStderr(quiet=quiet)
         console = Console(stderr=True)
         self._bar: Progress | None = None
         if console.is_terminal and not quiet:
@@ -52,6 +58,7 @@ class Stages:
             self._bar.update(self._task, description=stage, completed=fraction)
 
     def __enter__(self) -> Stages:
+        LOG.addHandler(self._warnings)
         if self._bar is not None:
             self._bar.start()
         return self
@@ -63,3 +70,4 @@ class Stages:
         self._stage = None
         if self._bar is not None:
             self._bar.stop()
+        LOG.removeHandler(self._warnings)

@@ -13,6 +13,7 @@ from .._version import __version__
 from ..charts import Chart, Unwrapped
 from ..disk import DiskMap
 from ..operators import Distortion
+from .terminal import plain
 
 __all__ = ["angles_text", "distortion_summary", "iterations_text", "print_rows", "print_summary", "unwrapped_summary"]
 
@@ -120,7 +121,7 @@ def print_rows(rows: list[tuple[str, str]]) -> None:
     table.add_column(style="bold", no_wrap=True)
     table.add_column()
     for name, text in rows:
-        table.add_row(name, escape(text))
+        table.add_row(name, escape(plain(text)))
     Console().print(table)
 
 

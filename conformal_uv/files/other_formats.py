@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import warnings
 from pathlib import Path
@@ -39,8 +40,8 @@ def read_with_trimesh(path: Path, data: bytes) -> MeshFile:
         parts = [part for part in scene.dump() if isinstance(part, trimesh.Trimesh)]
         if not parts:
             raise FileFormatError(f"{path}: the file has no triangles")
-        corners = [np.asarray(part.vertices, dtype=np.float64)[part.faces].reshape(-1, 3) for part in parts]
-        soup = np.concatenate(corners)
+        soups = [np.asarray(part.vertices, dtype=np.float64)[part.faces].reshape(-1, 3) for part in parts]
+        soup = np.concatenate(soups)
     V, corners = welded(soup)
     return MeshFile(path, checked_mesh(path, V, corners, np.full(len(soup) // 3, 3, np.int64)))
 
@@ -53,10 +54,11 @@ def read_with_meshio(path: Path, data: bytes) -> MeshFile:
         raise missing_library("meshio", path.suffix) from error
     with foreign_parser(path, path.suffix.removeprefix(".").upper(), "meshio"), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        try:
-            mesh = meshio.read(path)
-        except SystemExit as error:  # meshio's own way of saying that it does not know
-            raise FileFormatError(f"{path}: meshio does not understand this file") from error
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints
+            try:
+                mesh = (meshio.vtk if path.suffix.lower() == ".vtk" else meshio.vtu).read(path)
+            except SystemExit as error:  # meshio's own way of saying that it does not know
+                raise FileFormatError(f"{path}: meshio does not understand this file") from error
         V = np.asarray(mesh.points, dtype=np.float64)
         if V.ndim != 2 or V.shape[1] not in (2, 3):
             raise FileFormatError(f"{path}: the points are {V.shape}, not three coordinates each")
