@@ -31,9 +31,9 @@ def test_control_characters_of_a_name_are_written_out(tmp_path: Path, command: s
 
 
 def test_quiet_is_silent_where_the_method_does_not_converge(tmp_path: Path) -> None:
-    """A ribbon that crowds: Newton's method stops before its tolerance, and the library logs it."""
-    V, F = EMBEDDED["ribbon 1 x 25"]
-    source = tmp_path / "ribbon.obj"
+    """Slivers throughout: Newton's method stops before its tolerance, and the library logs it."""
+    V, F = EMBEDDED["x stretched by 1e5"]
+    source = tmp_path / "slivers.obj"
     lines = [f"v {x} {y} {z}" for x, y, z in V.tolist()] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in F.tolist()]
     source.write_text("\n".join(lines) + "\n")
     loud = run("disk", source, tmp_path / "out.obj")
