@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import os
 from collections.abc import Callable
 from typing import Annotated, ParamSpec
 
@@ -20,6 +21,7 @@ from .terminal import plain
 __all__ = ["app"]
 
 P = ParamSpec("P")
+CLOSED_PIPE = 141  # what a shell says of a command that SIGPIPE ended
 
 app = typer.Typer(
     name="conformal-uv",
@@ -40,6 +42,9 @@ def _told(command: Callable[P, None]) -> Callable[P, None]:
             message = " ".join(str(error).split())
             typer.echo(plain(f"{type(error).__name__}: {message}"), err=True)
             raise typer.Exit(1) from error
+        except BrokenPipeError:  # whoever read standard output has had enough
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+            raise typer.Exit(CLOSED_PIPE) from None
         except OSError as error:
             typer.echo(plain(f"{type(error).__name__}: {error}"), err=True)
             raise typer.Exit(1) from error

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Annotated
 
@@ -11,10 +10,11 @@ import typer
 
 from ..charts import Unwrapped, unwrap
 from ..errors import ConformalUVError
-from ..files import check_writable, read_mesh, replaced_file, write_mesh
+from ..files import read_mesh, write_mesh
 from . import choices
-from .figure import check_drawable, draw_unwrapped
+from .figure import draw_unwrapped
 from .numbers import three_numbers
+from .outputs import Outputs
 from .seams import read_seams
 from .stages import Stages
 from .summary import print_summary, unwrapped_summary
@@ -24,8 +24,8 @@ __all__ = ["disk"]
 
 
 def disk(
-    source: Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL or NPZ.")],
-    target: Annotated[Path, typer.Argument(metavar="OUT", help="Mesh with UVs: OBJ, PLY or NPZ.")],
+    source: Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL, NPZ, GLB ...; - is stdin.")],
+    target: Annotated[Path, typer.Argument(metavar="OUT", help="Mesh with UVs: OBJ, PLY or NPZ; - is stdout.")],
     method: Annotated[choices.Method, typer.Option(help="How the map is found.")] = choices.Method.NEWTON,
     objective: Annotated[choices.Objective | None, typer.Option(help="Energy to be minimised.")] = None,
     pins: Annotated[
@@ -53,6 +53,12 @@ def disk(
     repair: Annotated[choices.Repair, typer.Option(help="Folded triangles.")] = choices.Repair.AUTO,
     place: Annotated[choices.Place, typer.Option(help="Placing in the unit square.")] = choices.Place.FIT,
     backend: Annotated[choices.Backend, typer.Option(help="Factorization library.")] = choices.Backend.AUTO,
+    split: Annotated[
+        bool, typer.Option("--split", help="Write vertices split at seams, for programs that know one UV a vertex.")
+    ] = False,
+    format: Annotated[
+        str | None, typer.Option(metavar="obj|ply|npz", help="Of standard input and output (-); by default obj.")
+    ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")] = None,
     plot: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw the surface, the flattened mesh and its angle error.")
@@ -65,12 +71,11 @@ def disk(
     between seams) are packed into it.
     """
     pinned = three_numbers(pins)
-    check_writable(target)
-    if plot is not None:
-        check_drawable(plot)
+    outputs = Outputs(source, target, json_file, plot, format)
+    outputs.check()
     with Stages(quiet=quiet) as stages:
         stages("read", 0.0)
-        mesh_file = read_mesh(source)
+        mesh_file = read_mesh(source, format=format)
         result = unwrap(
             None,
             mesh_file.mesh,
@@ -95,16 +100,15 @@ def disk(
             raise _reason(result)
         stages("distortion", 0.0)
         summary = unwrapped_summary(result, str(source), str(target), stages.seconds)
-        stages("write", 0.0)
-        write_mesh(target, mesh_file, corner_uv=_corner_uv(result, mesh_file.mesh.sizes))
-        if plot is not None:
-            stages("plot", 0.0)
-            draw_unwrapped(plot, result, source.name)
-    if json_file is not None:
-        with replaced_file(json_file) as out:
-            out.write(json.dumps(summary, indent=2).encode())
+        corner_uv = _corner_uv(result, mesh_file.mesh.sizes)
+        outputs.write(
+            stages,
+            summary,
+            lambda path: write_mesh(path, mesh_file, corner_uv=corner_uv, split=split, format=format),
+            lambda path: draw_unwrapped(path, result, source.name),
+        )
     if not quiet:
-        print_summary(summary)
+        print_summary(summary, stderr=outputs.on_stdout)
     if not result.mapped[result.chart_of_face >= 0].all():
         typer.echo(plain(result.summary), err=True)
         raise typer.Exit(1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,12 +10,13 @@ import typer
 from numpy.typing import NDArray
 
 from ..errors import MeshError
-from ..files import MeshFile, read_mesh, replaced_file
+from ..files import MeshFile, read_mesh
 from ..mesh import Surface
 from ..mesh.geometry import triangle_geometry
 from ..mesh.triangulate import triangulate
 from ..operators.distortion import distortion_of
 from ..operators.laplacian import cotangent_weights
+from .outputs import Outputs
 from .stages import Stages
 from .summary import distortion_summary, print_rows
 
@@ -25,12 +25,15 @@ __all__ = ["report"]
 
 def report(
     source: Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL or NPZ.")],
+    format: Annotated[str | None, typer.Option(metavar="obj|ply|...", help="Of standard input (-).")] = None,
     json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table.")] = False,
 ) -> None:
     """Tell what a mesh is: its topology, angles, weights, and the distortion of its UVs."""
+    outputs = Outputs(source, json=json_file)
+    outputs.check()
     with Stages(quiet=True):
-        mesh_file = read_mesh(source)
+        mesh_file = read_mesh(source, format=format)
     F, _, corner_of = triangulate(mesh_file.mesh)
     summary: dict[str, Any] = {
         "input": str(source),
@@ -43,11 +46,9 @@ def report(
     except MeshError as error:
         summary["not_a_surface"] = f"{type(error).__name__}: {error}"
     summary["uv"] = _uv_summary(mesh_file, corner_of)
-    if json_file is not None:
-        with replaced_file(json_file) as out:
-            out.write(json.dumps(summary, indent=2).encode())
+    outputs.write_numbers(summary)
     if not quiet:
-        _print(summary)
+        _print(summary, stderr=outputs.on_stdout)
 
 
 def _surface_summary(surface: Surface) -> dict[str, Any]:
@@ -102,7 +103,7 @@ def _uv_summary(mesh_file: MeshFile, corner_of: NDArray[np.int64]) -> dict[str, 
     }
 
 
-def _print(summary: dict[str, Any]) -> None:
+def _print(summary: dict[str, Any], *, stderr: bool) -> None:
     counts = f"{summary['vertices']} vertices, {summary['faces']} faces"
     if summary["triangles"] != summary["faces"]:
         counts += f" ({summary['triangles']} triangles)"
@@ -117,7 +118,7 @@ def _print(summary: dict[str, Any]) -> None:
         told = "angle error mean {mean:.4g}, sd {sd:.4g}, max {max:.4g} degrees; ".format(**uv["angle_error_degrees"])
         told += f"{uv['flipped_faces']} of {uv['triangles']} triangles flipped"
     rows.append(("UVs", told))
-    print_rows(rows)
+    print_rows(rows, stderr=stderr)
 
 
 def _surface_rows(summary: dict[str, Any]) -> list[tuple[str, str]]:

@@ -12,8 +12,9 @@ import typer
 from numpy.typing import NDArray
 
 from .. import samples
-from ..files import MeshFile, check_writable, write_mesh
+from ..files import MeshFile, write_mesh
 from ..mesh.polygons import PolygonMesh
+from .outputs import Outputs
 from .terminal import plain
 
 __all__ = ["sample"]
@@ -46,11 +47,13 @@ def sample(
     target: Annotated[Path, typer.Argument(metavar="OUT", help="OBJ, PLY or NPZ.")],
     vertices: Annotated[int, typer.Option(min=16, max=MOST_VERTICES, help="Number of vertices, about.")] = 20000,
     seed: Annotated[int, typer.Option(min=0, help="Of the irregular triangulation.")] = 0,
+    format: Annotated[str | None, typer.Option(metavar="obj|ply|npz", help="Of standard output (-).")] = None,
 ) -> None:
     """Write a generated surface."""
-    check_writable(target)
+    outputs = Outputs(mesh=target, format=format)
+    outputs.check()
     V, F = MAKERS[kind](vertices, seed=seed)
     corners = F.reshape(-1).astype(np.int64)
     mesh = PolygonMesh(V, corners, np.arange(0, len(corners) + 1, 3, dtype=np.int64))
-    write_mesh(target, MeshFile(target, mesh), corner_uv=np.full((len(corners), 2), np.nan))
-    typer.echo(plain(f"{target}: {len(V)} vertices, {len(F)} triangles"))
+    write_mesh(target, MeshFile(target, mesh), corner_uv=np.full((len(corners), 2), np.nan), format=format)
+    typer.echo(plain(f"{target}: {len(V)} vertices, {len(F)} triangles"), err=outputs.on_stdout)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,14 +11,15 @@ import typer
 from numpy.typing import NDArray
 
 from .._version import __version__
-from ..files import MeshFile, check_writable, read_mesh, replaced_file, write_mesh
+from ..files import MeshFile, read_mesh, write_mesh
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangulate import triangulate
 from ..sphere import SphereMap, sphere_map
 from ..sphere.layout import equirectangular, octahedral
 from . import choices
-from .figure import check_drawable, draw_sphere_map
+from .figure import draw_sphere_map
 from .numbers import three_numbers
+from .outputs import Outputs
 from .stages import Stages
 from .summary import angles_text, distortion_summary, iterations_text, print_rows
 
@@ -45,6 +45,12 @@ def sphere(
     repair: Annotated[choices.Repair, typer.Option(help="Inverted triangles.")] = choices.Repair.AUTO,
     backend: Annotated[choices.Backend, typer.Option(help="Factorization library.")] = choices.Backend.AUTO,
     uv: Annotated[choices.SphereLayout, typer.Option(help="UVs to write.")] = choices.SphereLayout.NONE,
+    split: Annotated[
+        bool, typer.Option("--split", help="Write vertices split at the seams of the UVs.")
+    ] = False,
+    format: Annotated[
+        str | None, typer.Option(metavar="obj|ply|npz", help="Of standard input and output (-); by default obj.")
+    ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")] = None,
     plot: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw the surface and its sphere in the same colours.")
@@ -56,12 +62,11 @@ def sphere(
     OUT has the faces of IN and the positions on the sphere; its UVs are those of --uv, if any.
     """
     marks = three_numbers(landmarks)
-    check_writable(target)
-    if plot is not None:
-        check_drawable(plot)
+    outputs = Outputs(source, target, json_file, plot, format)
+    outputs.check()
     with Stages(quiet=quiet) as stages:
         stages("read", 0.0)
-        mesh = read_mesh(source).mesh
+        mesh = read_mesh(source, format=format).mesh
         V, F = _compact(mesh)
         result = sphere_map(
             V,
@@ -78,17 +83,16 @@ def sphere(
         )
         stages("distortion", 0.0)
         summary = _summary(result, str(source), str(target), stages.seconds)
-        stages("write", 0.0)
         image = replace(mesh, V=_on_all(result.xyz, mesh))
-        write_mesh(target, MeshFile(target, image), corner_uv=_layout(uv, image))
-        if plot is not None:
-            stages("plot", 0.0)
-            draw_sphere_map(plot, result, source.name)
-    if json_file is not None:
-        with replaced_file(json_file) as out:
-            out.write(json.dumps(summary, indent=2).encode())
+        corner_uv = _layout(uv, image)
+        outputs.write(
+            stages,
+            summary,
+            lambda path: write_mesh(path, MeshFile(path, image), corner_uv=corner_uv, split=split, format=format),
+            lambda path: draw_sphere_map(path, result, source.name),
+        )
     if not quiet:
-        _print(summary)
+        _print(summary, stderr=outputs.on_stdout)
 
 
 def _compact(mesh: PolygonMesh) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -133,7 +137,7 @@ def _summary(result: SphereMap, source: str, target: str, seconds: dict[str, flo
     }
 
 
-def _print(summary: dict[str, Any]) -> None:
+def _print(summary: dict[str, Any], *, stderr: bool) -> None:
     mesh = summary["mesh"]
     print_rows(
         [
@@ -145,5 +149,6 @@ def _print(summary: dict[str, Any]) -> None:
             ("flipped faces", "{flipped_faces} ({repaired_faces} repaired)".format(**summary)),
             ("seconds", ", ".join(f"{stage} {spent:.2f}" for stage, spent in summary["seconds"].items())),
             ("output", summary["output"]),
-        ]
+        ],
+        stderr=stderr,
     )

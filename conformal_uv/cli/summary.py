@@ -94,7 +94,7 @@ def _map_summary(result: DiskMap) -> dict[str, Any]:
     }
 
 
-def print_summary(summary: dict[str, Any]) -> None:
+def print_summary(summary: dict[str, Any], *, stderr: bool = False) -> None:
     """The short table at the end of the command; a row for each of several charts."""
     mesh, angle = summary["mesh"], summary["angle_error_degrees"]
     charts = summary["charts"]
@@ -112,17 +112,17 @@ def print_summary(summary: dict[str, Any]) -> None:
         ("seconds", ", ".join(f"{stage} {spent:.2f}" for stage, spent in summary["seconds"].items())),
         ("output", summary["output"]),
     ]
-    print_rows(rows)
+    print_rows(rows, stderr=stderr)
 
 
-def print_rows(rows: list[tuple[str, str]]) -> None:
+def print_rows(rows: list[tuple[str, str]], *, stderr: bool = False) -> None:
     """Print names and texts in two columns."""
     table = Table(show_header=False, box=None, pad_edge=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column()
     for name, text in rows:
         table.add_row(name, escape(plain(text)))
-    Console().print(table)
+    Console(stderr=stderr).print(table)
 
 
 def _map_rows(chart: dict[str, Any]) -> list[tuple[str, str]]:

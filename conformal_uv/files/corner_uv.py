@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.errors import NonFiniteError, OptionError, listed
+from conformal_uv.files.mesh_file import MeshFile
 from conformal_uv.mesh.polygons import PolygonMesh
 
-__all__ = ["checked_corner_uv", "filled_corner_uv", "mapped_faces", "shared_uv", "vertex_uv"]
+__all__ = ["checked_corner_uv", "filled_corner_uv", "mapped_faces", "shared_uv", "split_at_seams", "vertex_uv"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -83,3 +84,16 @@ def vertex_uv(mesh: PolygonMesh, uv: Floats) -> Floats | None:
     each = np.full((len(mesh.V), 2), np.nan)
     each[mesh.corners] = uv
     return each if (each[mesh.corners] == uv).all() and not np.isnan(each).any() else None
+
+
+def split_at_seams(source: MeshFile, uv: Floats) -> tuple[MeshFile, Floats]:
+    """The mesh with a vertex for every texture coordinate of each vertex, and the coordinates of its corners.
+
+    Corners without coordinates get (0, 0), since a vertex can not be without. Vertices of no face are left out.
+    """
+    mesh = source.mesh
+    filled = np.nan_to_num(filled_corner_uv(mesh, uv, source.corner_uv), nan=0.0)
+    number, example = shared_uv(mesh.corners, filled)
+    original = mesh.corners[example]
+    split = PolygonMesh(mesh.V[original], number, mesh.starts)
+    return MeshFile(source.path, split, original_vertex=original), filled

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from conformal_uv.errors import FileFormatError
 from conformal_uv.files.atomic import replaced_file
 from conformal_uv.files.checks import file_bytes
-from conformal_uv.files.corner_uv import checked_corner_uv
+from conformal_uv.files.corner_uv import checked_corner_uv, split_at_seams
 from conformal_uv.files.mesh_file import MeshFile
 from conformal_uv.files.npz import read_npz, write_npz
 from conformal_uv.files.obj_read import read_obj
@@ -26,6 +26,7 @@ from conformal_uv.files.other_formats import (
     read_with_meshio,
     read_with_trimesh,
 )
+from conformal_uv.files.places import STANDARD_STREAM, check_place, is_stream
 from conformal_uv.files.ply_read import read_ply
 from conformal_uv.files.ply_write import write_ply
 from conformal_uv.files.stl import read_stl
@@ -42,7 +43,6 @@ _READERS: dict[str, Callable[[Path, bytes], MeshFile]] = {
     **dict.fromkeys(MESHIO_SUFFIXES, read_with_meshio),
 }
 PACKED = (".obj", ".ply", ".off", ".stl")  # also read with .gz behind
-STANDARD_STREAM = "-"
 _WRITERS: dict[str, Callable[[BinaryIO, MeshFile, NDArray[np.float64]], None]] = {
     ".obj": write_obj,
     ".ply": write_ply,
@@ -94,11 +94,19 @@ def _converters() -> str:
     return ' Blender, MeshLab or conformal-uv-meshlab (pip install "conformal-uv[meshlab]") can convert it'
 
 
-def write_mesh(path: str | os.PathLike[str], source: MeshFile, *, corner_uv: NDArray[np.float64]) -> None:
+def write_mesh(
+    path: str | os.PathLike[str],
+    source: MeshFile,
+    *,
+    corner_uv: NDArray[np.float64],
+    split: bool = False,
+    format: str | None = None,
+) -> None:
     """Write a mesh with new texture coordinates: OBJ, PLY or npz, by the file's suffix.
 
     A file of the same format as the source's keeps everything else that was in it. The target is replaced in
-    one step, so it may be the source; after an error it is as it was.
+    one step, so it may be the source; after an error it is as it was. A device, a FIFO or standard output (``-``) is
+    written into.
 
     Parameters
     ----------
@@ -109,6 +117,12 @@ def write_mesh(path: str | os.PathLike[str], source: MeshFile, *, corner_uv: NDA
     corner_uv : (k, 2) float
         Texture coordinates of every polygon corner. A face with NaN at a corner keeps those that the source
         had, or has none.
+    split : bool
+        Write a vertex once for each of its texture coordinates, so that programs which know one a vertex (Blender,
+        open3d and meshio in PLY) see them all. PLY and npz have the source's vertices as the property or array
+        ``original_vertex``; nothing else of the source's file is kept.
+    format : str, optional
+        As a suffix without its dot, where the path has none that is known; "obj" for standard output.
 
     Raises
     ------
@@ -119,13 +133,15 @@ def write_mesh(path: str | os.PathLike[str], source: MeshFile, *, corner_uv: NDA
     MissingDependencyError
         The library for this format is not installed.
     """
-    check_writable(path)
+    check_writable(path, format=format)
     uv = checked_corner_uv(source.mesh, corner_uv)
+    if split:
+        source, uv = split_at_seams(source, uv)
     with replaced_file(path) as stream:
-        _WRITERS[Path(path).suffix.lower()](stream, source, uv)
+        _WRITERS[_written_suffix(path, format)](stream, source, uv)
 
 
-def check_writable(path: str | os.PathLike[str]) -> None:
+def check_writable(path: str | os.PathLike[str], *, format: str | None = None) -> None:
     """Refuse, before any work is done, a name that `write_mesh` could not write.
 
     Raises
@@ -134,16 +150,14 @@ def check_writable(path: str | os.PathLike[str]) -> None:
         The suffix is not that of a format written here, the folder does not exist or is write-protected, or
         the file is a folder or write-protected.
     """
-    path = Path(path)
-    if path.suffix.lower() not in _WRITERS:
-        raise FileFormatError(f"{path}: files of the type {path.suffix!r} are not written; "
-                              f"use {', '.join(WRITABLE)}")
-    target = Path(os.path.realpath(path))
-    if not target.parent.is_dir():
-        raise FileFormatError(f"{path}: the folder {target.parent} does not exist; create it first")
-    if target.is_dir():
-        raise FileFormatError(f"{path}: this is a folder; give the name of a file")
-    if not os.access(target.parent, os.W_OK):
-        raise FileFormatError(f"{path}: the folder {target.parent} is write-protected; choose another")
-    if target.exists() and not os.access(target, os.W_OK):
-        raise FileFormatError(f"{path}: the file is write-protected; choose another name")
+    suffix = _written_suffix(path, format)
+    if suffix not in _WRITERS:
+        raise FileFormatError(f"{path}: files of the type {suffix!r} are not written; use {', '.join(WRITABLE)}")
+    check_place(path)
+
+
+def _written_suffix(path: str | os.PathLike[str], format: str | None) -> str:
+    suffix = Path(path).suffix.lower()
+    if suffix in _WRITERS or not (format or is_stream(path)):
+        return suffix
+    return f".{(format or 'obj').lower().removeprefix('.')}"

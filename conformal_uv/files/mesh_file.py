@@ -29,9 +29,12 @@ class MeshFile:
     origin : object
         The rest of the file, for a writer of the same format to keep; None where nothing is kept. It is used
         only as long as ``mesh`` is the one it was read with.
+    original_vertex : (n,) int64 or None
+        Where vertices were split at seams, the vertex that each one was.
     """
 
     path: Path
     mesh: PolygonMesh
     corner_uv: NDArray[np.float64] | None = None
     origin: object = field(default=None, repr=False)
+    original_vertex: NDArray[np.int64] | None = field(default=None, repr=False)

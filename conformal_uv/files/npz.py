@@ -62,6 +62,8 @@ def write_npz(stream: BinaryIO, source: MeshFile, corner_uv: NDArray[np.float64]
     each = vertex_uv(mesh, uv)
     if each is not None:
         arrays["uv"] = each
+    if source.original_vertex is not None:
+        arrays["original_vertex"] = source.original_vertex
     np.savez(stream, allow_pickle=False, **arrays)
 
 

@@ -26,8 +26,8 @@ def write_ply(stream: BinaryIO, source: MeshFile, corner_uv: Floats) -> None:
     """Write ``source`` with new texture coordinates.
 
     They become vertex properties (double) where every vertex has one pair, else the face list texcoord (float),
-    MeshLab's wedge coordinates, empty for a face that has none. The other elements and properties of a file
-    that came from PLY stay, and so does its text or binary format.
+    MeshLab's wedge coordinates, empty for a face that has none; without any there is no such list. The other
+    elements and properties of a file that came from PLY stay, and so does its text or binary format.
     """
     try:
         import plyfile
@@ -45,9 +45,11 @@ def write_ply(stream: BinaryIO, source: MeshFile, corner_uv: Floats) -> None:
         added: dict[str, Any]
         if element.name == "vertex":
             added = {} if each is None else {name: each[:, k] for pair in WRITTEN_UV for k, name in enumerate(pair)}
+            if source.original_vertex is not None:
+                added["original_vertex"] = source.original_vertex.astype(np.int32)
             elements[k] = _changed(plyfile, element, [n for pair in VERTEX_UV for n in pair], added)
         elif element.name == "face":
-            added = {} if each is not None else {WEDGE_UV: _wedges(mesh, uv)}
+            added = {} if each is not None or np.isnan(uv).all() else {WEDGE_UV: _wedges(mesh, uv)}
             elements[k] = _changed(plyfile, element, [WEDGE_UV], added)
     ply = plyfile.PlyData(elements, text=text, byte_order=order)
     if old is not None:
@@ -87,7 +89,7 @@ def _changed(plyfile: Any, element: Any, dropped: list[str], added: dict[str, An
             fields.append(_list_field(name, "f4", value[1]))
             length_types[name], value_types[name] = _length_type(value[1]), "f4"
         else:
-            fields.append((name, "f8"))
+            fields.append((name, value.dtype))
     data = np.empty(element.count, fields)
     for p in kept:
         data[p.name] = element.data[p.name]
