@@ -114,7 +114,7 @@ def _call(surface: Surface, options: Options) -> dict[str, Any]:
     """Options that a factorization does not depend on, as keywords of Unwrapper.unwrap."""
     return {
         "method": options.method.lower().replace("_", "-"),
-        "pins": pinned_vertices(surface.arrays, surface.chosen) if options.use_pins else None,
+        "pins": set(pinned_vertices(surface.arrays, surface.chosen)) if options.use_pins else None,
         "center": surface.active if options.center == "ACTIVE" else None,
         "rotation": options.rotation,
         "repair": "auto" if options.repair else "never",

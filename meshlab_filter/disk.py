@@ -8,15 +8,17 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from conformal_uv import ConformalUVError, Unwrapped, unwrap
+from conformal_uv import ConformalUVError, OptionError, Unwrapped, unwrap
 from conformal_uv.progress import Callback
 
 from .current_mesh import read_current_mesh
 from .exceptions import pymeshlab_errors
 from .function_filters import check_function_filters
 from .quality import check_quality, map_numbers, polygon_quality
+from .script_history import unrecorded
 from .texcoords import check_texture, new_texcoords, write_face_scalar, write_texcoords
 
 __all__ = ["Mapped", "compute_texcoord_parametrization_conformal_disk", "map_current_mesh"]
@@ -137,20 +139,24 @@ def map_current_mesh(
     """The filter with all that is known of the map; `options` as `conformal_uv.unwrap` takes them."""
     with pymeshlab_errors(NAME):
         check_quality(quality)
+        if not isinstance(selected_only, bool | np.bool_):
+            raise OptionError(f"selected_only is {selected_only!r}; pass True or False.")
         if texture is not None:
             check_texture(texture)
         source = read_current_mesh(ms)
-        check_function_filters(ms)
+        with unrecorded(ms):
+            check_function_filters(ms)
         selection = source.selected_polygons() if selected_only else None
         result = unwrap(None, source.polygons, selection=selection, **options)
         _check_mapped(result)
         texcoords = new_texcoords(source, result.uv, result.mapped)
         numbers = map_numbers(source, result, texcoords)
-        write_texcoords(ms, source.mesh, texcoords, texture)
-        if quality != "none":
-            polygon = source.wedges.polygon
-            values = polygon_quality(result, quality)[polygon]
-            write_face_scalar(ms, source.mesh, values, result.mapped[polygon])
+        with unrecorded(ms):
+            write_texcoords(ms, source.mesh, texcoords, texture)
+            if quality != "none":
+                polygon = source.wedges.polygon
+                values = polygon_quality(result, quality)[polygon]
+                write_face_scalar(ms, source.mesh, values, result.mapped[polygon])
     return Mapped(result, numbers)
 
 

@@ -13,6 +13,7 @@ from conformal_uv.progress import Callback
 from .current_mesh import read_current_mesh
 from .exceptions import pymeshlab_errors
 from .function_filters import check_function_filters, vertex_variable
+from .script_history import unrecorded
 from .texcoords import write_face_scalar
 
 __all__ = ["compute_coord_conformal_sphere"]
@@ -82,7 +83,8 @@ def compute_coord_conformal_sphere(
         if quality not in QUALITIES:
             raise OptionError(f"quality is {quality!r}; choose {', '.join(QUALITIES)}.")
         source = read_current_mesh(ms)
-        check_function_filters(ms)
+        with unrecorded(ms):
+            check_function_filters(ms)
         used, F = np.unique(source.F, return_inverse=True)
         result = sphere_map(
             source.polygons.V[used],
@@ -101,12 +103,13 @@ def compute_coord_conformal_sphere(
         xyz = source.polygons.V.copy()
         xyz[used] = result.xyz
         x, y, z = (vertex_variable(source.mesh, f"sphere_{axis}", xyz[:, k]) for k, axis in enumerate("xyz"))
-        ms.compute_coord_by_function(x=x, y=y, z=z)
-        if quality != "none":
-            d = result.distortion
-            values = d.angle_error.mean(axis=1) if quality == "angle" else d.quasi_conformal
-            values = values[: len(source.F)]  # caps come after
-            write_face_scalar(ms, source.mesh, values, np.isfinite(values))
+        with unrecorded(ms):
+            ms.compute_coord_by_function(x=x, y=y, z=z)
+            if quality != "none":
+                d = result.distortion
+                values = d.angle_error.mean(axis=1) if quality == "angle" else d.quasi_conformal
+                values = values[: len(source.F)]  # caps come after
+                write_face_scalar(ms, source.mesh, values, np.isfinite(values))
     return numbers
 
 

@@ -7,7 +7,7 @@ import pytest
 from meshes import annulus, plate
 from polygon_shapes import CUBE, CUBE_V, block, grid, side_by_side, sides_of, tube
 
-from conformal_uv import CancelledError, disk_map
+from conformal_uv import CancelledError, OptionError, disk_map
 from conformal_uv.charts import Unwrapper, unwrap
 from conformal_uv.mesh.polygons import PolygonMesh
 from conformal_uv.samples import mask, spherical_cap
@@ -182,14 +182,16 @@ def test_rotation_turns_every_disk_about_its_centre():
 def test_vertices_find_their_charts():
     V, Q = side_by_side(3)
     # Each grid has 12 vertices, 5 and 6 inside; the boundary of grid k runs from 12 k.
-    u = unwrap(V, Q, place="disk", center=[17], pins=[[24, 27, 35], [3]], boundary_vertex=[14])
-    first, second, third = u.charts
-    assert first.notes == ["not pinned: of its pins 3, 1 are on its boundary, not three"]
+    u = unwrap(V, Q, place="disk", center=[17], pins=[[24, 27, 35]], boundary_vertex=[14])
+    _, second, third = u.charts
+    with pytest.raises(OptionError, match="pins: no chart can use vertices 3;"):
+        unwrap(V, Q, pins=[[24, 27, 35], [3]])
     assert second.map.uv[5] == pytest.approx([0, 0]) and second.map.uv[2] == pytest.approx([1, 0])
     roots = np.exp(2j * np.pi / 3 * np.arange(3))
     assert third.map.uv[[0, 3, 11]] @ [1, 1j] == pytest.approx(roots)
     backwards = unwrap(V, Q, place="disk", pins=[24, 35, 27])
     assert np.array_equal(backwards.charts[2].map.uv, third.map.uv)
+    assert backwards.charts[2].notes == ["pins taken in the order of the boundary: 24, 27, 35"]
 
 
 def test_a_centre_on_the_boundary_is_noted():
@@ -197,7 +199,26 @@ def test_a_centre_on_the_boundary_is_noted():
     u = unwrap(V, Q, center=[0, 5, 6], place="disk")
     assert u.charts[0].map.center == 5
     assert u.charts[0].notes == ["center 0, 6 not used: one is enough"]
-    assert unwrap(V, Q, center=0).charts[0].notes == ["center 0 not used: not interior here"]
+
+
+NOT_USABLE = [{"center": 0}, {"boundary_vertex": 5}, {"pins": [0, 1, 5]}, {"pins": [0, 1, 2, 3]}]
+
+
+@pytest.mark.parametrize("options", NOT_USABLE)
+def test_a_vertex_that_no_chart_can_use_is_refused(options: dict[str, object]) -> None:
+    V, Q = grid(3, 3)
+    with pytest.raises(OptionError, match="no chart can use"):
+        unwrap(V, Q, **options)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"rotation": "a"}, {"margin": "a"}, {"margin": np.nan}, {"rotation": None}, {"tolerance": "1"}, {"place": 3}],
+)
+def test_options_of_other_types_are_refused(options: dict[str, object]) -> None:
+    V, Q = grid(3, 3)
+    with pytest.raises(OptionError):
+        unwrap(V, Q, **options)
 
 
 def test_fit_fills_the_unit_square_and_keeps_the_margin():
@@ -220,7 +241,8 @@ def test_unwrapper_factorizes_each_chart_once(monkeypatch):
     first = again.unwrap(place="disk")
     assert len(count) == 2
     linear = again.unwrap(method="linear", place="disk", rotation=1.0)
-    moved = again.unwrap(center=10, place="pack")
+    inside = int(np.setdiff1d(np.arange(len(V)), first.charts[0].map.boundary)[0])
+    moved = again.unwrap(center=inside, place="pack")
     assert len(count) == 2
     assert np.array_equal(linear.uv, unwrap(W, G, method="linear", place="disk", rotation=1.0).uv)
     assert np.array_equal(first.uv, again.unwrap(place="disk").uv)

@@ -109,11 +109,35 @@ def test_pins_seams_and_holes_reach_the_map():
     V, F = plate(6, 6, holes=((2, 2, 1, 1),))
     ms = mesh_set(V, F)
     seams = [(0, 1), (7, 8)]
-    options = {"pins": [0, 6, 40], "seams": seams, "place": "disk", "method": "linear"}
+    rim = cuv.unwrap(V, F, seams=seams, method="linear").charts[0]
+    a, b, c = rim.vertices[rim.map.boundary[[0, 5, 11]]].tolist()
+    options = {"pins": [a, b, c], "seams": seams, "place": "disk", "method": "linear"}
     conformal_disk(ms, **options)
     np.testing.assert_array_equal(wedges(ms).reshape(-1, 2), cuv.unwrap(V, F, **options).uv.astype(np.float32))
     with pytest.raises(ConformalFilterException, match="boundary"):
         conformal_disk(ms, holes="refuse")
+
+
+def test_no_trace_is_left_in_the_filter_script(tmp_path, face_of_mask):
+    """What was recorded before can be saved and replayed on another mesh."""
+    V, F = face_of_mask
+    ms = mesh_set(V, F)
+    ms.apply_coord_laplacian_smoothing()
+    before, after = tmp_path / "before.mlx", tmp_path / "after.mlx"
+    ms.save_filter_script(str(before))
+    conformal_disk(ms, quality="angle")
+    ms.save_filter_script(str(after))
+    assert after.read_text() == before.read_text()
+    other = mesh_set(V, F)
+    other.load_filter_script(str(after))
+    other.apply_filter_script()
+    assert not np.array_equal(other.current_mesh().vertex_matrix(), V)
+
+
+@pytest.mark.parametrize("selected_only", ["no", "false", 0, None])
+def test_selected_only_is_true_or_false(face_of_mask, selected_only):
+    with pytest.raises(ConformalFilterException, match="selected_only"):
+        conformal_disk(mesh_set(*face_of_mask), selected_only=selected_only)
 
 
 @pytest.mark.parametrize("columns, rows", [(5, 4)])

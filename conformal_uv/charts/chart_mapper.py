@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -38,13 +38,14 @@ class MapOptions:
 @dataclass(frozen=True, eq=False)
 class ChartSolution:
     """The map of a chart or the error; `z` (n,) positions of its own vertices, `signed` twice the image's area of
-    its own triangles (m,)."""
+    its own triangles (m,), `used` the caller's vertices that its options took."""
 
     map: DiskMap | None
     error: ConformalUVError | None
     notes: list[str]
     z: NDArray[np.complex128]
     signed: NDArray[np.float64]
+    used: dict[str, NDArray[np.int64]] = field(default_factory=dict)
 
 
 class ChartMapper:
@@ -96,7 +97,7 @@ class ChartMapper:
         )
         z = np.ascontiguousarray(found.uv).view(np.complex128).reshape(-1)[: len(mesh.vertices)]
         signed = signed_double_areas(planar_sides(z, mesh.F.T.astype(np.int32)))
-        return ChartSolution(found, None, own.notes, z, signed)
+        return ChartSolution(found, None, own.notes, z, signed, own.used(mesh.vertices))
 
     def _told(self, error: ConformalUVError) -> ConformalUVError:
         """The error with the caller's polygons for the chart's triangles.

@@ -60,10 +60,11 @@ def unwrap(
     method, objective, pin_mode, tolerance, relative_tolerance, max_iterations, laplacian, repair, backend
         As in `disk_map`.
     pins : vertices or triples of vertices, optional
-        A chart with exactly three of them on its boundary is pinned by them, in the order of its boundary from
-        the one named first; a chart with another number is not pinned and says so in its notes.
+        A chart takes those on its boundary, which must be exactly three, in the order of its boundary from the one
+        named first; a note tells where that is another order. A set of pins is an offer: charts with another number
+        of them on their boundary are not pinned and say so in their notes.
     center, boundary_vertex : vertices, optional
-        Each is used by the chart in whose interior, or on whose boundary, it lies.
+        Each is used by the chart in whose interior, or on whose boundary, it lies; of several in one chart the first.
     rotation : float
         Radians, anticlockwise; every disk is turned by it about its centre at the end.
     holes : {"fill", "refuse"}
@@ -99,7 +100,8 @@ def unwrap(
     MeshError
         The arrays are not a mesh: shapes, types, indices.
     OptionError
-        An option that is not taken, a seam that is no edge, a vertex of no selected polygon.
+        An option that is not taken, a seam that is no edge, a vertex of no selected polygon, or one that no chart
+        can use as a center, boundary vertex or pin.
     MissingDependencyError
         Several charts are to be packed and rectangle-packer is not installed.
     CancelledError

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..disk import DiskMapper
-from ..disk.options import DiskOptions
-from ..errors import OptionError
+from ..disk.options import DiskOptions, real_number
 from ..progress import Callback
 from .arguments import Polygons, polygon_mesh, seam_pairs, selected_polygons, used_vertices, vertex_list
 from .chart import Chart, Unwrapped
@@ -93,9 +92,9 @@ class Unwrapper:
         callback: Callback | None = None,
     ) -> Unwrapped:
         """Map all charts with the given options; see `unwrap`. Factorizations are used again."""
+        turn = real_number("rotation", rotation, "radians")
+        margin = None if margin is None else real_number("margin", margin, "a part of the square's side")
         check_place(place, margin)
-        if not np.isfinite(rotation):
-            raise OptionError(f"rotation is {rotation}; pass radians.")
         options = MapOptions(method, objective, pin_mode, tolerance, relative_tolerance, max_iterations, repair)
         self._check(options)
         vertices = VertexOptions(
@@ -110,8 +109,9 @@ class Unwrapper:
         for number, mapper in enumerate(self._mappers):
             progress.start(number)
             solutions.append(mapper.solve(options, vertices, progress if progress.wanted else None))
+        self._check_used(vertices, solutions, offered=isinstance(pins, set | frozenset))
         progress.report("packing", PLACING)
-        result = self._assembled(solutions, place, margin, rotation)
+        result = self._assembled(solutions, place, margin, turn)
         progress.report("packing", 1.0)
         return result
 
@@ -124,6 +124,23 @@ class Unwrapper:
             pins=None,
             center=None,
             boundary_vertex=None,
+        )
+
+    def _check_used(self, vertices: VertexOptions, solutions: list[ChartSolution], *, offered: bool) -> None:
+        """Raise OptionError on a center, boundary vertex or pin that no chart could use; pins may be only `offered`."""
+        if not vertices:
+            return
+        pairs = list(zip(self._mappers, solutions, strict=True))
+        excused = [mapper.mesh.vertices for mapper, solution in pairs if solution.map is None]
+        if offered:
+            excused.append(vertices.pins)
+        for name, wanted in (("center", vertices.center), ("boundary_vertex", vertices.boundary_vertex)):
+            for mapper, solution in pairs:  # of several in one chart the first is taken, and a note tells of the others
+                if solution.map is not None and len(solution.used[name]):
+                    excused.append(wanted[np.isin(wanted, mapper.mesh.vertices)])
+        vertices.check_used(
+            [solution.used for solution in solutions if solution.map is not None],
+            np.concatenate([np.empty(0, dtype=np.int64), *excused]),
         )
 
     def _assembled(

@@ -7,11 +7,17 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import listed
+from ..errors import OptionError, listed
 
 __all__ = ["ChartOptions", "VertexOptions"]
 
 Ints = NDArray[np.int64]
+
+NEEDED = {
+    "center": "a center lies in the interior of a chart.",
+    "boundary_vertex": "a boundary vertex lies on the outer boundary of a chart.",
+    "pins": "a chart takes exactly three, all on its outer boundary.",
+}
 
 
 @dataclass(frozen=True)
@@ -22,6 +28,11 @@ class ChartOptions:
     boundary_vertex: int | None = None
     pins: tuple[int, int, int] | None = None
     notes: list[str] = field(default_factory=list)
+
+    def used(self, vertices: Ints) -> dict[str, Ints]:
+        """The caller's vertices that are in use, by option; `vertices` (n,) as in `VertexOptions.of_chart`."""
+        own = {"center": [self.center], "boundary_vertex": [self.boundary_vertex], "pins": self.pins or []}
+        return {name: vertices[[v for v in taken if v is not None]] for name, taken in own.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +45,22 @@ class VertexOptions:
 
     def __bool__(self) -> bool:
         return bool(len(self.center) or len(self.boundary_vertex) or len(self.pins))
+
+    def check_used(self, used: list[dict[str, Ints]], excused: Ints) -> None:
+        """Raise OptionError on vertices that no chart could use, but for those `excused`.
+
+        Parameters
+        ----------
+        used : list of dict
+            What each chart used.
+        excused : (k,)
+            Vertices of charts that could not be mapped for other reasons, and vertices beside one that was used.
+        """
+        for name, wanted in (("center", self.center), ("boundary_vertex", self.boundary_vertex), ("pins", self.pins)):
+            taken = np.concatenate([excused, *(chart[name] for chart in used)])
+            bad = np.unique(wanted[~np.isin(wanted, taken)])
+            if len(bad):
+                raise OptionError(f"{name}: no chart can use vertices {listed(bad)}; {NEEDED[name]}", bad)
 
     def of_chart(self, vertices: Ints, boundary: Ints) -> ChartOptions:
         """What a chart uses.
@@ -78,4 +105,8 @@ class VertexOptions:
         named = [int(np.flatnonzero(self.pins == pin)[0]) for pin in on_loop]
         lead = place[int(np.argmin(named))]
         a, b, c = sorted(place, key=lambda at: (at - lead) % len(boundary))
+        given = [place[k] for k in np.argsort(named)]
+        if given != [a, b, c]:
+            told = ", ".join(str(vertices[boundary[at]]) for at in (a, b, c))
+            notes.append(f"pins taken in the order of the boundary: {told}")
         return int(boundary[a]), int(boundary[b]), int(boundary[c])

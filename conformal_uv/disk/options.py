@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..errors import OptionError
 from ..mesh.surface import Surface
 
-__all__ = ["DiskOptions", "Method", "Objective", "PinMode"]
+__all__ = ["DiskOptions", "Method", "Objective", "PinMode", "checked_limits", "real_number"]
 
 Method = Literal["linear", "newton", "augmented-lagrangian"]
 Objective = Literal["conformal", "dirichlet"]
@@ -83,13 +83,13 @@ class DiskOptions:
         pin_mode = ("constraint" if report else "moebius") if pin_mode is None else pin_mode
         given = {"method": method, "objective": objective, "pin_mode": pin_mode, "repair": repair}
         for name, value in given.items():
-            if value not in CHOICES[name]:
+            if not isinstance(value, str) or value not in CHOICES[name]:
                 raise OptionError(f"{name} is {value!r}; choose {' or '.join(CHOICES[name])}.")
         if report and pin_mode != "constraint":
             raise OptionError('The augmented Lagrangian takes its pins as constraints; leave pin_mode out.')
         if method == "linear" and pin_mode == "constraint":
             raise OptionError('The linear method does not optimise; it takes pins only with pin_mode="moebius".')
-        tolerance, relative_tolerance, max_iterations = _limits(tolerance, relative_tolerance, max_iterations)
+        tolerance, relative_tolerance, max_iterations = checked_limits(tolerance, max_iterations, relative_tolerance)
         pinned = _pins(pins, loop, surface.n, default=report or pin_mode == "constraint")
         if pinned is not None and (center is not None or boundary_vertex is not None):
             raise OptionError("Three pins already fix the map; leave out center and boundary_vertex.")
@@ -125,8 +125,39 @@ def _vertex(name: str, value: int, n: int) -> int:
     return vertex
 
 
-def _limits(tolerance: float, relative_tolerance: float, max_iterations: int) -> tuple[float, float, int]:
+def real_number(name: str, value: object, what: str = "a number") -> float:
+    """The value as a finite float.
+
+    Raises
+    ------
+    OptionError
+        It is none.
+    """
+    if isinstance(value, str | bytes | bool | np.bool_):
+        raise OptionError(f"{name} is {value!r}; pass {what}.")
     try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError) as error:
+        raise OptionError(f"{name} is {value!r}; pass {what}.") from error
+    if not np.isfinite(number):
+        raise OptionError(f"{name} is {value!r}; pass {what}.")
+    return number
+
+
+def checked_limits(
+    tolerance: float, max_iterations: int, relative_tolerance: float = 0.0
+) -> tuple[float, float, int]:
+    """Tolerance, relative tolerance and number of iterations.
+
+    Raises
+    ------
+    OptionError
+        No numbers, or out of range.
+    """
+    given = tolerance, relative_tolerance, max_iterations
+    try:
+        if any(isinstance(value, str | bytes | bool | np.bool_) for value in given):
+            raise TypeError
         norm, part, most = float(tolerance), float(relative_tolerance), index(max_iterations)
     except (TypeError, ValueError) as error:
         raise OptionError(

@@ -9,6 +9,7 @@ from operator import index
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..disk.options import checked_limits
 from ..errors import DisconnectedError, OptionError, TopologyError
 from ..linear.backends import choose_backend
 from ..mesh.geometry import triangle_geometry
@@ -107,10 +108,9 @@ def sphere_map(
         repair=repair,
     )
     for name, value in given.items():
-        if value not in CHOICES[name]:
+        if not isinstance(value, str) or value not in CHOICES[name]:
             raise OptionError(f"{name} is {value!r}; choose {', '.join(CHOICES[name])}.")
-    if not 0.0 < tolerance < np.inf or index(max_iterations) < 0:
-        raise OptionError("tolerance must be positive and max_iterations not negative.")
+    tolerance, _, max_iterations = checked_limits(tolerance, max_iterations)
     choose_backend(backend)  # complains of what is not there before any work
     progress = Progress(callback)
     progress("checks", 0.0)
