@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv import OptionError, Unwrapped
-from conformal_uv.operators.orientation_sign import orientation_signs
 
 from .current_mesh import CurrentMesh
 from .texcoords import Texcoords
@@ -66,13 +65,6 @@ def map_numbers(source: CurrentMesh, result: Unwrapped, texcoords: Texcoords) ->
         "dirichlet_energy": sum(m.dirichlet_energy for m in maps),
         "flipped_polygons": sum(len(chart.flipped) for chart in result.charts),
         "lost_to_double": sum(len(m.lost_to_double) for m in maps),
-        "lost_to_float32": _lost_to_float32(texcoords.wedge[new]),
+        "lost_to_float32": int(result.lost_to_float32().sum()),
         "converged_charts": sum(m.converged for m in maps),
     }
-
-
-def _lost_to_float32(wedge: NDArray[np.float64]) -> int:
-    """Faces (m, 3, 2) without positive area in single precision, which is what MeshLab keeps."""
-    stored = wedge.reshape(-1, 2).astype(np.float32).astype(np.float64)
-    corners = np.arange(len(stored), dtype=np.int32).reshape(-1, 3).T
-    return int((orientation_signs(stored, corners) <= 0).sum())

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..disk import DiskMap
 from ..errors import ConformalUVError, listed
 from ..operators import Distortion, distortion
+from ..operators.orientation_sign import orientation_signs
 from .chart_meshes import ChartMesh
 from .placement import Placement
 
@@ -39,6 +40,8 @@ class Chart:
         The chart's own triangles (polygons cut into triangles, holes not filled), in chart vertices.
     polygon : (m,) int64
         The caller's polygon of each of these.
+    corners : (m, 3) int64
+        The caller's polygon corner at each corner of these, a row of ``Unwrapped.uv``.
     flipped : (k,) int64
         The caller's polygons with a triangle whose image has non-positive signed area.
     notes : list of str
@@ -53,6 +56,7 @@ class Chart:
     vertices: NDArray[np.int64]
     F: NDArray[np.int64]
     polygon: NDArray[np.int64]
+    corners: NDArray[np.int64]
     flipped: NDArray[np.int64]
     notes: list[str]
     placement: Placement
@@ -97,6 +101,26 @@ class Unwrapped:
     chart_of_face: NDArray[np.int64]
     mapped: NDArray[np.bool_]
     charts: list[Chart]
+
+    def lost_to_float32(self, uv: NDArray[np.float64] | None = None) -> NDArray[np.int64]:
+        """Number of each chart's triangles without positive area where coordinates are kept in single precision.
+
+        That is what textures and modelling programs keep, of islands where they lie; triangles that are folded in
+        double precision count too. 0 for charts that failed; (c,) for c charts.
+
+        Parameters
+        ----------
+        uv : (k, 2) floats, optional
+            Coordinates as they are stored, where the caller has moved its islands; by default ``self.uv``.
+        """
+        sizes = [len(chart.corners) if chart.map is not None else 0 for chart in self.charts]
+        corners = [chart.corners for chart in self.charts if chart.map is not None]
+        owner = np.repeat(np.arange(len(sizes)), sizes)
+        if not corners:
+            return np.zeros(len(sizes), dtype=np.int64)
+        stored = np.asarray(self.uv if uv is None else uv).astype(np.float32).astype(np.float64)
+        lost = orientation_signs(stored, np.concatenate(corners).T.astype(np.int32)) <= 0
+        return np.bincount(owner[lost], minlength=len(sizes))
 
     @property
     def summary(self) -> str:

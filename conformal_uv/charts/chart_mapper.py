@@ -111,11 +111,10 @@ class ChartMapper:
         if polygon is None:
             return type(error)(f"The chart is not a disk that can be mapped ({type(error).__name__}).")
         faces = np.unique(self._name[polygon[polygon < len(self._name)]])
-        return DegenerateFaceError(
-            f'{len(faces)} faces have no area: faces {listed(faces)}. Pass laplacian="auto", or merge their '
-            "coincident vertices.",
-            faces,
-        )
+        told = f"{len(faces)} faces have no area: faces {listed(faces)}."
+        if len(error.indices) == len(self.mesh.solved):
+            return DegenerateFaceError(f"{told} All their vertices lie on one line; there is nothing to map.", faces)
+        return DegenerateFaceError(f'{told} Pass laplacian="auto", or merge their coincident vertices.', faces)
 
 
 def _failed(error: ConformalUVError) -> ChartSolution:

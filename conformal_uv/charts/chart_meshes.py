@@ -33,6 +33,8 @@ class ChartMesh:
         Triangles of the caller's polygons, wound for the solution.
     polygon : (m,) int64
         The polygon of each triangle.
+    corner : (m, 3) int64
+        The corner of that polygon at each corner of the triangle, among the corners of all polygons.
     solved : (m', 3) int64
         The triangles that the map is solved on: F, with the virtual ones.
     solved_polygon : (m',) int64
@@ -43,6 +45,7 @@ class ChartMesh:
     vertices: Ints
     F: Ints
     polygon: Ints
+    corner: Ints
     solved: Ints
     solved_polygon: Ints
 
@@ -53,7 +56,7 @@ class ChartMeshes:
 
     Attributes
     ----------
-    V, site, F, polygon, solved, solved_polygon
+    V, site, F, polygon, corner, solved, solved_polygon
         As in ChartMesh, of all charts; `site` (n,) is the site of each vertex, at least the number of sites for
         virtual ones.
     vertex_of_site : (s,) int64
@@ -67,6 +70,7 @@ class ChartMeshes:
     site: Ints
     F: Ints
     polygon: Ints
+    corner: Ints
     solved: Ints
     solved_polygon: Ints
     vertex_of_site: Ints
@@ -86,6 +90,7 @@ class ChartMeshes:
             self.vertex_of_site[self.site[own]],
             self.F[faces],
             self.polygon[faces],
+            self.corner[faces],
             self.solved[solved],
             self.solved_polygon[solved],
         )
@@ -130,6 +135,7 @@ def chart_meshes(mesh: PolygonMesh, surface: CutSurface, count: int) -> ChartMes
         order,
         number[T[by_chart]],
         polygon[by_chart],
+        corner_of[by_chart],
         number[solved[by_chart_solved]],
         solved_polygon[by_chart_solved],
         surface.vertex_of_site,

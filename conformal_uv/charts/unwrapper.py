@@ -179,6 +179,7 @@ class Unwrapper:
                     mesh.vertices,
                     mesh.F,
                     polygon,
+                    split.corner[mesh.corner],
                     self._flipped(solution, mesh),
                     split.notes.get(number, []) + solution.notes,
                     placed[number],

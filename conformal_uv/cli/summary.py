@@ -34,7 +34,8 @@ def distortion_summary(distortions: list[Distortion]) -> dict[str, Any]:
 
 def unwrapped_summary(result: Unwrapped, source: str, target: str, seconds: dict[str, float]) -> dict[str, Any]:
     """Everything that is told of an unwrapped mesh; with one chart its fields stand on top as well."""
-    charts = [_chart_summary(number, chart) for number, chart in enumerate(result.charts)]
+    lost = result.lost_to_float32().tolist()
+    charts = [_chart_summary(number, chart, lost[number]) for number, chart in enumerate(result.charts)]
     done = [chart for chart in result.charts if chart.distortion is not None]
     flipped = np.concatenate([chart.flipped for chart in done])
     summary: dict[str, Any] = {
@@ -60,7 +61,7 @@ def unwrapped_summary(result: Unwrapped, source: str, target: str, seconds: dict
     return summary
 
 
-def _chart_summary(number: int, chart: Chart) -> dict[str, Any]:
+def _chart_summary(number: int, chart: Chart, lost_to_float32: int) -> dict[str, Any]:
     told: dict[str, Any] = {
         "chart": number,
         "faces": len(chart.faces),
@@ -70,7 +71,8 @@ def _chart_summary(number: int, chart: Chart) -> dict[str, Any]:
     }
     if chart.map is None or chart.distortion is None:
         return {**told, "error": f"{type(chart.error).__name__}: {chart.error}"}
-    return {**told, **_map_summary(chart.map), **distortion_summary([chart.distortion])}
+    told.update(_map_summary(chart.map), lost_to_float32=lost_to_float32)
+    return {**told, **distortion_summary([chart.distortion])}
 
 
 def _map_summary(result: DiskMap) -> dict[str, Any]:
@@ -89,7 +91,6 @@ def _map_summary(result: DiskMap) -> dict[str, Any]:
         "dirichlet_energy": result.dirichlet_energy,
         "flipped_triangles": len(result.flipped),
         "lost_to_double": len(result.lost_to_double),
-        "lost_to_float32": len(result.lost_to_float32),
         "repair": vars(result.repair) if result.repair is not None else None,
     }
 

@@ -77,7 +77,7 @@ def _balanced(found: CentredMeasure) -> CentredMeasure:
 
     No map of the disk brings the image of such a vertex to 0. The arcs then serve as measure.
     """
-    if found.vertex_measure.max() < MOST_OF_ONE:
+    if found.vertex_measure.max() < MOST_OF_ONE and found.vertex_measure.sum() > 0.5:
         return found
     arcs = np.diff(found.theta, append=2.0 * np.pi) / (4.0 * np.pi)
     return CentredMeasure(None, arcs + np.roll(arcs, 1), found.theta)
@@ -102,15 +102,24 @@ def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]
         Of the boundary edge from each vertex to the next.
     """
     bearing = np.flatnonzero(measure > 0.0)
+    on_edge = _spread(measure, lengths, bearing) if len(bearing) else lengths
+    if not on_edge.any():  # all of it lost to rounding, on needles
+        on_edge = lengths if lengths.any() else np.ones(len(lengths))
+    total = np.cumsum(on_edge)
+    return 2.0 * np.pi * np.concatenate(([0.0], total[:-1] / total[-1]))
+
+
+def _spread(
+    measure: NDArray[np.float64], lengths: NDArray[np.float64], bearing: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """What each boundary edge gets, up to a factor, of the measure of the vertices that bear any."""
     first = int(bearing[0])
     stretch = np.add.reduceat(np.roll(lengths, -first), bearing - first)  # from each to the next
     around = stretch + np.roll(stretch, 1)
     density = measure[bearing] / np.where(around > 0.0, around, 1.0)
     density += np.roll(density, -1)
     edges = np.diff(bearing, append=first + len(measure))
-    on_edge = lengths * np.roll(np.repeat(density, edges), first)
-    total = np.cumsum(on_edge)
-    return 2.0 * np.pi * np.concatenate(([0.0], total[:-1] / total[-1]))
+    return np.asarray(lengths * np.roll(np.repeat(density, edges), first))
 
 
 def chord_edges(surface: Surface, loop: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -59,6 +59,7 @@ class DiskMapper:
         Progress(callback)("checks", 0.0)
         self.surface = Surface.from_arrays(V, F)
         self.boundary = self.surface.require_disk()
+        self.surface.require_extent()
         self._factorized: dict[str, tuple[DirichletProblem, CentredMeasure]] = {}
         self._solved: tuple[tuple[object, ...], Solution] | None = None
 
@@ -103,17 +104,17 @@ class DiskMapper:
             log.warning("%s stopped before its tolerance, after %d rows", method, len(solution.history))
         progress("placement", 0.0)
         z, flipped, center = self._placed(solution, options)
-        exhausted, cost = False, None
+        cost = None
         if len(flipped) and options.repair == "auto" and options.method != "augmented-lagrangian":
             corners, folded, before = self.surface.corners, z, flipped
-            z, exhausted = repaired(self.surface, z, flipped, self.boundary, progress)
+            z = repaired(self.surface, z, flipped, self.boundary, progress)
             if z is not folded:
                 z = inside_disk(recentred(z, center, corners))
                 flipped = flipped_faces(z, corners)
                 cost = repair_cost(self.surface, folded, z, before, flipped)
             center = center if center is not None and z[center] == 0.0 else None
         result = disk_map_result(
-            self.surface, solution, options, z, flipped, exhausted, cost, center, self.backend
+            self.surface, solution, options, z, flipped, cost, center
         )
         progress("placement", 1.0)
         return result

@@ -74,8 +74,8 @@ def unresolved_faces(z: Complex, corners: NDArray[np.int32], faces: NDArray[np.i
 
 def repaired(
     surface: Surface, z: Complex, flipped: NDArray[np.int64], boundary: NDArray[np.int64], progress: Progress
-) -> tuple[Complex, bool]:
-    """Positions without folds; z itself where it has none.
+) -> Complex:
+    """Positions without folds, as far as doubles hold them; z itself where it has none.
 
     Parameters
     ----------
@@ -86,9 +86,7 @@ def repaired(
 
     Returns
     -------
-    z : (n,) complex128
-    exhausted : bool
-        Folds are left that positive weights everywhere did not undo: doubles can not hold the map unfolded.
+    (n,) complex128
     """
     corners, n = surface.corners, surface.n
     crowded = unresolved_faces(z, corners, flipped)
@@ -96,7 +94,7 @@ def repaired(
         crowded = crowded[:0]  # few enough to try them too; crowding proper comes in great numbers
     folds = np.setdiff1d(flipped, crowded, assume_unique=True)
     if not len(folds):
-        return z, False
+        return z
     inside = np.ones(n, dtype=bool)
     inside[boundary] = False
     candidates = [(len(folds), z)]
@@ -120,7 +118,7 @@ def repaired(
     fewest, best = min(candidates, key=lambda candidate: candidate[0])
     if 2 * fewest > candidates[0][0]:  # little to be had for all the angles that it would cost
         best = candidates[0][1]
-    return best, len(flipped_faces(best, corners)) > 0
+    return best
 
 
 def recentred(z: Complex, center: int | None, corners: NDArray[np.int32]) -> Complex:

@@ -41,8 +41,7 @@ class DiskMap:
         Faces with non-positive signed area in uv, decided exactly.
     lost_to_double : (k,) int64
         Those of them whose height is within the rounding of the positions: crowded faces, too small in the disk for
-        doubles to hold. All of them where positive weights everywhere left folds, or would have cost too many angles
-        to undo them.
+        doubles to hold.
     converged : bool
         Whether the method reached its tolerance; always true of "linear", which does not iterate.
     history : tuple
@@ -58,7 +57,7 @@ class DiskMap:
     pins : tuple of int or None
         The boundary vertices at 1, w, w^2, w = exp(2 pi i / 3), where they were asked for.
     backend : str
-        Library of the factorization.
+        Library of the factorization; always "superlu" for the augmented Lagrangian, whose systems are indefinite.
     """
 
     uv: NDArray[np.float64]
@@ -105,14 +104,12 @@ def disk_map_result(
     options: DiskOptions,
     z: Complex,
     flipped: NDArray[np.int64],
-    exhausted: bool,
     repair: Repair | None,
     center: int | None,
-    backend: str,
 ) -> DiskMap:
     """Measure positions z (n,).
 
-    `flipped` are the faces folded there; `exhausted` as `repaired` returns it.
+    `flipped` are the faces folded there.
     """
     uv = z.copy().view(np.float64).reshape(-1, 2)
     area = enclosed_area(z[surface.loops[0]])
@@ -128,7 +125,7 @@ def disk_map_result(
         dirichlet_energy=dirichlet,
         conformal_energy=conformal,
         flipped=flipped,
-        lost_to_double=flipped if exhausted else unresolved_faces(z, surface.corners, flipped),
+        lost_to_double=unresolved_faces(z, surface.corners, flipped),
         converged=solution.converged,
         history=solution.history,
         repair=repair,
@@ -137,7 +134,7 @@ def disk_map_result(
         laplacian="cotan" if solution.problem is None else solution.problem.laplacian.kind,
         center=center,
         pins=options.pins,
-        backend=backend if solution.problem is None else solution.problem.backend,
+        backend="superlu" if solution.problem is None else solution.problem.backend,
         surface=surface,
     )
 

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DegenerateFaceError, MeshError, NonFiniteError, UnreferencedVertexError, listed
 
-__all__ = ["check_referenced", "face_array", "scaled", "vertex_array"]
+__all__ = ["check_referenced", "face_array", "on_one_line", "scaled", "squared_units", "vertex_array"]
 
 MOST_VERTICES = 2**31 - 1
 
@@ -116,4 +116,29 @@ def check_referenced(corners: NDArray[np.int32], n: int) -> None:
 def scaled(V: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     """V over a power of two, and that power: an exact operation that keeps squares from overflowing."""
     _, exponent = np.frexp(max(V.max(), -V.min()))
-    return np.ldexp(V, -exponent), float(np.ldexp(1.0, min(exponent, 1023)))
+    exponent = min(exponent, 1023)  # 2^1024 is no double
+    return np.ldexp(V, -exponent), float(np.ldexp(1.0, exponent))
+
+
+def squared_units(areas: NDArray[np.float64], unit: float) -> NDArray[np.float64]:
+    """Areas in units squared; infinite where they are too large for doubles."""
+    with np.errstate(over="ignore", under="ignore"):
+        return areas * unit * unit
+
+
+def on_one_line(V: NDArray[np.float64]) -> bool:
+    """Whether points lie on one line, each coordinate being known to its own rounding.
+
+    Seen along each axis, the vector product of a difference of points and the longest one is wrong by a few eps times
+    the sizes of the two coordinates; a mesh that is only very thin, or has one very long spike, is wider than that.
+    """
+    V, _ = scaled(V)
+    from_first = V - V[0]
+    farthest = from_first[np.argmax(np.abs(from_first).max(axis=1))]
+    size = np.abs(V).max(axis=0)
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        across = from_first[:, i] * farthest[j] - from_first[:, j] * farthest[i]
+        rounding = 8.0 * np.finfo(np.float64).eps * (size[i] * abs(farthest[j]) + size[j] * abs(farthest[i]))
+        if np.abs(across).max() > rounding:
+            return False
+    return True

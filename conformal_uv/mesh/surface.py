@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import DisconnectedError, NonManifoldError, TopologyError, listed
-from .arrays import check_referenced, face_array, scaled, vertex_array
+from ..errors import DegenerateFaceError, DisconnectedError, NonManifoldError, TopologyError, listed
+from .arrays import check_referenced, face_array, on_one_line, scaled, vertex_array
 from .geometry import TriangleGeometry, triangle_geometry
 from .halfedges import HalfEdges, half_edges
 from .loops import boundary_loops
@@ -192,6 +192,16 @@ class Surface:
                 "Cut it open along its handles first.",
             )
         return self.loops[0]
+
+    def require_extent(self) -> None:
+        """Raise DegenerateFaceError where all vertices lie on one line: no angle is there to be kept."""
+        if on_one_line(self.V):
+            faces = np.arange(self.m)
+            raise DegenerateFaceError(
+                f"All {self.n} vertices lie on one line or in one point: none of the faces {listed(faces)} has an "
+                "area. Give the vertices other positions, or remove the piece.",
+                faces,
+            )
 
     def loop_length(self, loop: NDArray[np.int64]) -> float:
         """Length of a closed polygon of vertices, in the scaled units."""

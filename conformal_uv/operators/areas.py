@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.arrays import face_array, vertex_array
+from ..mesh.arrays import face_array, scaled, squared_units, vertex_array
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
 from ..mesh.manifold import check_areas
 
@@ -15,7 +15,9 @@ __all__ = ["face_areas", "lumped_areas", "mixed_voronoi_areas"]
 def face_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
     """Area of each triangle, (m,), in the units of V squared."""
     vertices = vertex_array(V)
-    return 0.5 * triangle_geometry(vertices, face_array(F, len(vertices))).double_area
+    corners = face_array(F, len(vertices))
+    vertices, unit = scaled(vertices)
+    return squared_units(0.5 * triangle_geometry(vertices, corners).double_area, unit)
 
 
 def lumped_areas(
@@ -39,6 +41,7 @@ def mixed_voronoi_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
     """
     vertices = vertex_array(V)
     corners = face_array(F, len(vertices))
+    vertices, unit = scaled(vertices)
     geometry = triangle_geometry(vertices, corners)
     check_areas(geometry)
     dot, area = geometry.dot, 0.5 * geometry.double_area
@@ -47,4 +50,5 @@ def mixed_voronoi_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
     obtuse = dot < 0.0
     share = np.where(obtuse, area / 2.0, area / 4.0)
     share = np.where(obtuse.any(axis=0), share, voronoi).reshape(-1)
-    return np.bincount(corners.reshape(-1), weights=share, minlength=len(vertices)).astype(np.float64, copy=False)
+    areas = np.bincount(corners.reshape(-1), weights=share, minlength=len(vertices)).astype(np.float64, copy=False)
+    return squared_units(areas, unit)

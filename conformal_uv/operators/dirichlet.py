@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from ..errors import SolverError
 from ..linear.backends import choose_backend, linear_solver
 from ..linear.linear_system import LinearSolver, LowerTriangle
 from ..linear.nested_dissection import nested_dissection
@@ -16,6 +19,9 @@ __all__ = ["DirichletProblem", "interior_matrix"]
 
 FEW = 2000  # interior vertices, which the libraries order as fast
 WIDE_SPREAD = 1e6  # of the largest weight over the median
+# Largest and smallest weight over the median where weights spread so wide that Lii is singular in doubles: vertices
+# joined by the largest then differ by 1e-10 (1e-6, 1e-3) of what sets them apart from their neighbours.
+CAPS = ((1e10, 0.0), (1e6, 1e-6), (1e3, 1e-9))
 CORRECTIONS = 2  # steps of iterative refinement where weights spread so wide
 
 
@@ -53,24 +59,43 @@ class DirichletProblem:
         progress: Progress | None = None,
     ) -> None:
         progress = progress or Progress()
-        self.laplacian = laplacian
         self.n = n
         self.boundary = boundary
         inside, self.interior, number = _numbered(boundary, n)
-        self._degree = _degrees(laplacian, n)
-        self._blocks(inside, number)
         self.backend = choose_backend(backend)
         self._corrections = CORRECTIONS if _spread(laplacian.weights) > WIDE_SPREAD else 0
         self._solver: LinearSolver | None = None
-        if len(self.interior):
-            matrix = _lower_triangle(laplacian, inside, number, self._degree[self.interior])
-            progress("ordering", 0.0)
-            order = None
-            if points is not None and matrix.n > FEW:
-                order = nested_dissection(points[self.interior], matrix.indices, matrix.indptr)
-            matrix.passing = True
-            self._solver = linear_solver(matrix, backend, progress, order)
-            self.backend = self._solver.backend
+        self.laplacian = laplacian
+        for span in (*CAPS, None):
+            self._degree = _degrees(self.laplacian, n)
+            try:
+                self._factorize(inside, number, points, backend, progress)
+                break
+            except SolverError:
+                if span is None or (laplacian.weights[inside[laplacian.lo] | inside[laplacian.hi]] < 0.0).any():
+                    raise
+                self.laplacian = _capped(laplacian, *span)
+        self._blocks(inside, number)
+
+    def _factorize(
+        self,
+        inside: NDArray[np.bool_],
+        number: NDArray[np.int32],
+        points: NDArray[np.float64] | None,
+        backend: str,
+        progress: Progress,
+    ) -> None:
+        """Make Lii ready to be solved with."""
+        if not len(self.interior):
+            return
+        matrix = _lower_triangle(self.laplacian, inside, number, self._degree[self.interior])
+        progress("ordering", 0.0)
+        order = None
+        if points is not None and matrix.n > FEW:
+            order = nested_dissection(points[self.interior], matrix.indices, matrix.indptr)
+        matrix.passing = True
+        self._solver = linear_solver(matrix, backend, progress, order)
+        self.backend = self._solver.backend
 
     def _blocks(self, inside: NDArray[np.bool_], number: NDArray[np.int32]) -> None:
         """Lib and Lbb, a few entries for each boundary vertex."""
@@ -201,6 +226,13 @@ def _spread(weights: NDArray[np.float64]) -> float:
     some = weights[:: len(weights) // 8192 + 1]
     some = some[some > 0.0]
     return float(weights.max() / np.median(some)) if len(some) else 0.0
+
+
+def _capped(laplacian: EdgeLaplacian, most: float, least: float) -> EdgeLaplacian:
+    """The Laplacian with weights between so much and so little of the median of the positive ones."""
+    weights = laplacian.weights
+    typical = float(np.median(weights[weights > 0.0]))
+    return replace(laplacian, weights=np.clip(weights, np.minimum(weights, 0.0) + least * typical, most * typical))
 
 
 def _degrees(laplacian: EdgeLaplacian, n: int) -> NDArray[np.float64]:

@@ -9,14 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import MeshError, NonFiniteError, listed
-from ..mesh.arrays import face_array, vertex_array
+from ..mesh.arrays import face_array, scaled, vertex_array
 from ..mesh.blocks import blocks
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
-from .wirtinger import Sides, planar_sides, signed_double_areas, unfolded_sides, wirtinger
+from .orientation_sign import orientation_signs, outward_signs
+from .wirtinger import Sides, planar_sides, unfolded_sides, wirtinger
 
 __all__ = ["Distortion", "distortion", "distortion_of"]
 
 Real = NDArray[np.float64]
+
+RATIOS = (2.0**-1000, 2.0**1000)  # of units, whose squares then make every area 0 or infinite
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,18 +92,21 @@ def distortion(V: ArrayLike, F: ArrayLike, image: ArrayLike) -> Distortion:
     bad = np.flatnonzero(~np.isfinite(positions).all(axis=1))
     if len(bad):
         raise NonFiniteError(f"The image of {len(bad)} vertices is NaN or infinite: vertices {listed(bad)}.", bad)
-    return distortion_of(triangle_geometry(vertices, corners), corners, positions)
+    (vertices, unit), (positions, image_unit) = scaled(vertices), scaled(positions)
+    with np.errstate(over="ignore", under="ignore"):
+        ratio = float(np.clip(unit / np.float64(image_unit), *RATIOS))
+    return distortion_of(triangle_geometry(vertices, corners), corners, positions, ratio)
 
 
 def distortion_of(
     geometry: TriangleGeometry, corners: NDArray[np.int32], image: NDArray[np.float64], unit: float = 1.0
 ) -> Distortion:
-    """The same for geometry at hand, its unit of length being `unit`, and positions already checked."""
+    """The same for geometry at hand, its unit of length being `unit` of the image's, and positions already checked."""
     m = corners.shape[1]
-    angle, quasi_conformal, area_scale, signed = np.empty((m, 3)), np.empty(m), np.empty(m), np.empty(m)
+    angle, quasi_conformal, area_scale, signs = np.empty((m, 3)), np.empty(m), np.empty(m), orientations(image, corners)
     for part in blocks(m):
         here, there = geometry.part(part), triangle_geometry(image, corners[:, part])
-        sides, signed[part] = _image_sides(image, corners[:, part], there)
+        sides = _image_sides(image, corners[:, part], there, signs[part])
         has_area = here.double_area > 0
         fz, fzbar = wirtinger(unfolded_sides(here), sides, np.where(has_area, here.double_area, 1.0))
         plus, minus = np.abs(fz), np.abs(fzbar)
@@ -108,17 +114,22 @@ def distortion_of(
         angle[part] = _angle_between(here, there).T
         quasi_conformal[part] = _ratio(plus + minus, small, has_area & (small > 0))
         area_scale[part] = _ratio(there.double_area, here.double_area, has_area, unit)
-    return Distortion(np.degrees(angle, out=angle), quasi_conformal, area_scale, np.flatnonzero(signed <= 0))
+    return Distortion(np.degrees(angle, out=angle), quasi_conformal, area_scale, np.flatnonzero(signs <= 0))
 
 
-def _image_sides(image: Real, corners: NDArray[np.int32], shape: TriangleGeometry) -> tuple[Sides, Real]:
-    """Two edges of each face's image, laid into a plane, and twice its signed area."""
+def orientations(image: Real, corners: NDArray[np.int32]) -> NDArray[np.int8]:
+    """Exact sign of each face's area in the plane, or on a sphere around the origin seen from outside, (m,)."""
+    return (orientation_signs if image.shape[1] == 2 else outward_signs)(image, corners)
+
+
+def _image_sides(
+    image: Real, corners: NDArray[np.int32], shape: TriangleGeometry, signs: NDArray[np.int8]
+) -> Sides:
+    """Two edges of each face's image, laid into a plane."""
     if image.shape[1] == 2:
-        sides = planar_sides(np.ascontiguousarray(image).view(np.complex128).reshape(-1), corners)
-        return sides, signed_double_areas(sides)
+        return planar_sides(np.ascontiguousarray(image).view(np.complex128).reshape(-1), corners)
     first, second = unfolded_sides(shape)
-    signed = np.sign(_outward(image, corners)) * shape.double_area
-    return (first, np.where(signed < 0, second.conj(), second)), signed
+    return first, np.where(signs < 0, second.conj(), second)
 
 
 def _angle_between(one: TriangleGeometry, other: TriangleGeometry) -> Real:
@@ -138,9 +149,3 @@ def _ratio(
     with np.errstate(over="ignore", under="ignore"):
         np.divide(over, under, out=out, where=where)
         return out / unit / unit
-
-
-def _outward(image: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Six times the signed volume of the tetrahedron from the origin to each face, (m,)."""
-    a, b, c = (image[corner] for corner in corners)
-    return np.einsum("ij,ij->i", a, np.cross(b, c))

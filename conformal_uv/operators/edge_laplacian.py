@@ -18,6 +18,7 @@ from .mollification import mollified
 __all__ = ["LAPLACIANS", "EdgeLaplacian", "cotan_edges", "edge_laplacian", "intrinsic_delaunay_edges", "uniform_edges"]
 
 LAPLACIANS = ("auto", "cotan", "intrinsic-delaunay")
+LEAST = 1e-12  # weight around a vertex that would have none
 ROUNDING = 1e-14  # a weight above minus this is 0 to rounding: the four vertices lie on a circle
 
 
@@ -61,8 +62,6 @@ def edge_laplacian(
         An unknown kind.
     DegenerateFaceError
         "cotan" on faces without area.
-    SolverError
-        The edge flips do not end.
     """
     if kind not in LAPLACIANS:
         raise OptionError(f"laplacian is {kind!r}; choose {', '.join(LAPLACIANS)}.")
@@ -153,4 +152,9 @@ def _sorted(
     if len(again):
         first = np.delete(np.arange(len(lo)), again)
         lo, hi, weights = lo[first], hi[first], np.add.reduceat(weights, first)
+    positive = weights > 0.0
+    held = np.zeros(n, dtype=bool)
+    held[lo[positive]] = held[hi[positive]] = True
+    if not held.all():  # the tips of needles: all their cotangents are lost to rounding
+        weights = np.where(held[lo] & held[hi], weights, np.maximum(weights, LEAST))
     return EdgeLaplacian(lo, hi, weights, "intrinsic-delaunay")

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from ..mesh.arrays import face_array, vertex_array
+from ..mesh.arrays import face_array, scaled, vertex_array
 from ..mesh.geometry import triangle_geometry
 from ..mesh.manifold import check_areas
 
@@ -29,11 +29,14 @@ def gradient(V: ArrayLike, F: ArrayLike) -> csr_array:
     """
     vertices = vertex_array(V)
     corners = face_array(F, len(vertices))
+    vertices, unit = scaled(vertices)
     geometry = triangle_geometry(vertices, corners)
     check_areas(geometry)
     a, b, c = vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]
     normal = np.cross(b - a, c - a) / geometry.double_area[:, None] ** 2
     turned = np.stack([np.cross(normal, side) for side in (c - b, a - c, b - a)])  # (corner, face, axis)
+    with np.errstate(over="ignore", under="ignore"):
+        turned /= unit
     m = corners.shape[1]
     rows = np.broadcast_to(3 * np.arange(m)[:, None] + np.arange(3), (3, m, 3))
     columns = np.broadcast_to(corners[:, :, None], (3, m, 3))

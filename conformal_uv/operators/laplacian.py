@@ -73,6 +73,7 @@ def cotangent_laplacian_intrinsic(lengths: ArrayLike, F: ArrayLike, n: int | Non
     opposite = np.ascontiguousarray(vertex_array(lengths).T)
     if opposite.shape != corners.shape or opposite.min() < 0.0:
         raise MeshError(f"lengths must be ({corners.shape[1]}, 3) and not negative, one opposite to each corner.")
+    opposite, _ = scaled(opposite)
     return _matrix(intrinsic_geometry(opposite[[2, 0, 1]]), corners, count)
 
 

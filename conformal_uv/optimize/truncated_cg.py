@@ -54,5 +54,7 @@ def truncated_cg(
             break
         smooth = precondition(residual)
         product, previous = float(np.vdot(residual, smooth)), product
+        if not previous > 0.0:  # nothing is left that the preconditioner can see
+            break
         search = smooth + (product / previous) * search
     return direction, step

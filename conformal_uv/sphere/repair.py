@@ -50,5 +50,5 @@ def _unfolded_about(
     reach = float(np.abs(z[corners[:, base]]).max())
     disk = surface.without_face(base)
     z = z / reach
-    flat, _ = repaired(disk, z, flipped_faces(z, disk.corners), disk.loops[0], progress)
+    flat = repaired(disk, z, flipped_faces(z, disk.corners), disk.loops[0], progress)
     return from_plane(flat * reach) @ turn

@@ -17,7 +17,7 @@ from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import LAPLACIANS, EdgeLaplacian, edge_laplacian
-from ..operators.orientation_sign import inverted_faces
+from ..operators.orientation_sign import inverted_faces, outward_signs
 from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
 from ..progress import Callback, Progress
 from .augmented_lagrangian import SphereProblem
@@ -119,6 +119,7 @@ def sphere_map(
     if boundary == "cap" and surface.loops:
         surface = surface.capped()
     _require_sphere(surface)
+    surface.require_extent()
     marks = _landmarks(landmarks, n)
     mass = lumped_areas(surface.geometry, surface.corners, surface.n)
     mass = mass / mass.sum() if mass.sum() > 0.0 else np.full(surface.n, 1.0 / surface.n)
@@ -238,9 +239,10 @@ def _result(
 ) -> SphereMap:
     a, b, c = (x[corner] for corner in surface.corners)
     dirichlet = sum(edges.energy(column.astype(np.complex128)) for column in x.T)
-    area = 0.5 * float(triangle_geometry(x, surface.corners).double_area.sum())
+    signs = outward_signs(x, surface.corners)
+    area = 0.5 * float(triangle_geometry(x, surface.corners).double_area @ np.where(signs < 0, -1.0, 1.0))
     vertices, faces = own
-    inverted = inverted_faces(x, surface.corners)
+    inverted = np.flatnonzero(signs <= 0)
     return SphereMap(
         xyz=x[:vertices],
         full=x,
