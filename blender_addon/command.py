@@ -29,7 +29,7 @@ def run(argv):
         arguments = parser().parse_args(argv)
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else USAGE
-    why = missing_library()
+    why = missing_library() or _misplaced(arguments)
     if why:
         return _failed(why)
     try:
@@ -95,6 +95,9 @@ def _objects(names):
 
 
 def _unwrap_and_save(arguments, objects):
+    from conformal_uv import ConformalUVError
+    from conformal_uv.files import replaced_file
+
     from .unwrap_objects import unwrap_objects
 
     if bpy.context.mode != "OBJECT":
@@ -103,15 +106,39 @@ def _unwrap_and_save(arguments, objects):
     _tell(result.message)
     for remark in result.remarks:
         _tell(remark)
-    try:
-        if arguments.json:
-            report = {"input": arguments.input, "output": arguments.output, **result.as_dict()}
-            Path(arguments.json).write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
-        if result.unwrapped:
+    failures = []
+    if result.unwrapped:
+        try:
             bpy.ops.wm.save_as_mainfile(filepath=str(Path(arguments.output).resolve()))
-    except (OSError, RuntimeError) as error:
-        return _failed(str(error))
+        except RuntimeError as error:
+            failures.append(f"{arguments.output}: {error}")
+    if arguments.json:
+        report = {"input": arguments.input, "output": arguments.output, **result.as_dict()}
+        try:
+            with replaced_file(arguments.json) as out:
+                out.write(f"{json.dumps(report, indent=2)}\n".encode())
+        except (ConformalUVError, OSError) as error:
+            failures.append(str(error))
+    if failures:
+        return _failed("; ".join(failures))
     return DONE if result.complete else PARTLY
+
+
+def _misplaced(arguments):
+    """Why an output can not be written, empty where all can."""
+    from conformal_uv import ConformalUVError
+    from conformal_uv.files import check_distinct, check_place, is_stream
+
+    try:
+        check_distinct(arguments.input, {"-o": arguments.output, "--json": arguments.json}, in_place="-o")
+        if is_stream(arguments.output):
+            return f"{arguments.output}: a .blend file can not be written there; give the name of a file"
+        for place in (arguments.output, arguments.json):
+            if place is not None:
+                check_place(place)
+    except ConformalUVError as error:
+        return str(error)
+    return ""
 
 
 def _options(arguments):

@@ -52,6 +52,16 @@ def settled_mesh(ob: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
         bpy.data.meshes.remove(copy)
 
 
+def follows_uv_selection(context: bpy.types.Context) -> bool:
+    """Whether Blender's own unwrap would take selected UVs here, and not all of the selected faces."""
+    if context.mode != "EDIT_MESH" or getattr(context.space_data, "type", "") != "IMAGE_EDITOR":
+        return False
+    if not context.scene.tool_settings.use_uv_select_sync:
+        return True
+    edited = (bmesh.from_edit_mesh(ob.data) for ob in context.objects_in_mode_unique_data)
+    return any(getattr(mesh, "uv_select_sync_valid", False) for mesh in edited)  # 5.0: UVs selected apart, in sync
+
+
 def active_vertex(ob: bpy.types.Object) -> int | None:
     """Index of the vertex that was selected last, None where that is no vertex."""
     if ob.mode == "EDIT":

@@ -54,22 +54,20 @@ class KeptWork:
     def unwrapped(
         self, surface: Surface, options: Options, *, callback: Callback | None = None, backend: str = "auto"
     ) -> Unwrapped:
-        """The charts of the surface in the unit square, or on unit disks where Blender is to pack them.
+        """The charts of the surface on unit disks.
 
         `backend` counts when there is no factorization yet. Errors are those of `conformal_uv.unwrap`.
         """
         key, asked = surface.key(options), _call(surface, options)
         kept = self._results.get(key)
-        if kept is not None and kept[0] == {**asked, "place": options.place}:
+        if kept is not None and kept[0] == asked:
             return kept[1]
         unwrapper = self._unwrappers.get(key)
         if unwrapper is None:
             unwrapper = _unwrapper(surface, options, callback, backend)
             self._unwrappers[key] = unwrapper
         result = unwrapper.unwrap(**asked, place="disk", callback=callback)
-        if options.place == "FIT" and sum(chart.map is not None for chart in result.charts) > 1:
-            result = unwrapper.unwrap(**asked, place="fit", callback=callback)
-        self._results[key] = {**asked, "place": options.place}, result
+        self._results[key] = asked, result
         return result
 
     def fork(self) -> KeptWork:
@@ -105,6 +103,8 @@ def _unwrapper(surface: Surface, options: Options, callback: Callback | None, ba
         selection=surface.chosen,
         holes="fill" if options.fill_holes else "refuse",
         closed=options.closed.lower(),
+        nonmanifold="cut",
+        orientation="mend",
         backend=backend,
         callback=callback,
     )
@@ -118,5 +118,4 @@ def _call(surface: Surface, options: Options) -> dict[str, Any]:
         "center": surface.active if options.center == "ACTIVE" else None,
         "rotation": options.rotation,
         "repair": "auto" if options.repair else "never",
-        "margin": round(options.margin, 6),  # as it was typed; the property is of single precision
     }

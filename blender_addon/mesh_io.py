@@ -34,7 +34,9 @@ class MeshArrays:
     selected : (p,) bool
     hidden : (p,) bool
     pins : (q,) int32
-        Vertices of selected, visible faces whose UV is pinned.
+        Vertices of visible faces whose UV is pinned.
+    pinned : (p,) bool
+        Visible faces with a pinned UV.
     """
 
     V: NDArray[np.float32]
@@ -44,6 +46,7 @@ class MeshArrays:
     selected: NDArray[np.bool_]
     hidden: NDArray[np.bool_]
     pins: NDArray[np.int32]
+    pinned: NDArray[np.bool_]
 
     def digest(self, chosen: NDArray[np.bool_]) -> bytes:
         """A fingerprint of the surface, its seams and the chosen faces (p,)."""
@@ -70,6 +73,8 @@ def read_mesh(mesh: bpy.types.Mesh, uv_layer: str) -> MeshArrays:
     starts = _starts(mesh, p, k)
     if pinned.any():
         pinned &= np.repeat(~hidden, np.diff(starts))
+    pinned_faces = np.zeros(p, dtype=bool)
+    pinned_faces[np.repeat(np.arange(p), np.diff(starts))[pinned]] = True
     return MeshArrays(
         V=_attribute(mesh, "position", "vector", np.float32, len(mesh.vertices), 3),
         corners=corners,
@@ -78,6 +83,7 @@ def read_mesh(mesh: bpy.types.Mesh, uv_layer: str) -> MeshArrays:
         selected=selected,
         hidden=hidden,
         pins=corners[pinned],
+        pinned=pinned_faces,
     )
 
 
@@ -88,6 +94,13 @@ def pinned_vertices(arrays: MeshArrays, chosen: NDArray[np.bool_]) -> list[int]:
     pins = arrays.pins[used[arrays.pins]]
     _, first = np.unique(pins, return_index=True)
     return pins[np.sort(first)].tolist()
+
+
+def selected_uvs(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+    """Corners whose UV is selected, (k,), as the UV editor shows it where it does not follow the mesh's selection."""
+    active = mesh.uv_layers.active
+    name = ".uv_select_vert" if bpy.app.version >= (5, 0, 0) else f".vs.{active.name if active else ''}"
+    return _attribute(mesh, name, "value", np.bool_, len(mesh.loops))
 
 
 def read_corner_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:

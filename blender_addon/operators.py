@@ -5,7 +5,7 @@ from dataclasses import replace
 import bpy
 
 from . import last_result
-from .edit_mode import target_objects
+from .edit_mode import follows_uv_selection, target_objects
 from .libraries import missing_library
 from .properties import Options, UnwrapProperties
 
@@ -41,6 +41,7 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
     def invoke(self, context, event):
         """From the window: large meshes are solved in a thread, then written by execute from what it kept."""
         objects = target_objects(context)
+        self.only_selected_uvs = follows_uv_selection(context)
         if sum(len(ob.data.polygons) for ob in objects) < MANY_FACES and context.mode == "OBJECT":
             return self.execute(context)
         from .worker import Worker
@@ -74,10 +75,13 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
     def execute(self, context):
         from .unwrap_objects import unwrap_objects
 
+        attended = self.options.is_invoke or self.options.is_repeat  # not called by a script
+        if not attended:
+            self.only_selected_uvs = follows_uv_selection(context)
         result = unwrap_objects(context, target_objects(context), Options.of(self))
         last_result.keep(replace(result, seconds=result.seconds + self._seconds))
         self._seconds = 0.0
-        if not result.unwrapped:
+        if not (result.unwrapped or result.left or (attended and result.tried)):  # the redo panel offers what may help
             self.report({"ERROR"}, result.message)
             return {"CANCELLED"}
         for remark in result.remarks:

@@ -7,7 +7,12 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 METHODS = (
     ("LINEAR", "Linear", "One factorization: the Riemann map read off a Green's function; the fastest"),
-    ("NEWTON", "Newton", "The map of least angle distortion, by Newton's method on the boundary angles"),
+    (
+        "NEWTON",
+        "Newton",
+        "The least conformal energy, by Newton's method on the boundary angles; where an island is crowded, Linear may "
+        "keep angles better",
+    ),
     (
         "AUGMENTED_LAGRANGIAN",
         "Augmented Lagrangian",
@@ -23,7 +28,12 @@ CLOSED = (
     ("CUT", "Cut", "Cut them open along edges"),
 )
 PLACES = (
-    ("FIT", "Fit the Square", "One island fills the unit square; several are packed by conformal_uv, object by object"),
+    (
+        "FIT",
+        "Fit the Square",
+        "One island fills the unit square; several are packed by conformal_uv: of all objects in Edit Mode together, "
+        "of selected objects in Object Mode each by itself",
+    ),
     ("PACK", "Keep Size and Pack", "Islands keep their relative size; Blender packs those of all objects together"),
 )
 FACES = (
@@ -53,6 +63,7 @@ class Options:
     margin: float = 0.005
     faces: str = "SELECTED"
     uv_layer: str = ""
+    only_selected_uvs: bool = False
 
     @classmethod
     def of(cls, properties: object) -> "Options":
@@ -120,4 +131,10 @@ class UnwrapProperties:
         name="UV Map",
         description="UV map to write, made when missing; empty: the active one",
         default=DEFAULTS.uv_layer,
+    )
+    only_selected_uvs: BoolProperty(
+        name="Only Selected UVs",
+        description="Take only faces with a selected UV, as unwrapping in the UV editor does",
+        options={"HIDDEN", "SKIP_SAVE"},
+        default=DEFAULTS.only_selected_uvs,
     )

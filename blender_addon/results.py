@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from conformal_uv import Chart, Unwrapped
+from conformal_uv import Chart
 
 from .properties import CENTERS, CLOSED, FACES, METHODS, PLACES
-from .subdivided import Subdivision
+from .tasks import Task
 
+NOT_TOLD = {"charts", "tried", "left"}  # in JSON
 MOST_FACES, MOST_FAILURES = 3, 4  # named in a message
 
 
@@ -41,6 +42,8 @@ class ObjectResult:
     name: str
     uv_layer: str
     refusal: str = ""
+    tried: bool = True
+    left: int = 0
     islands: int = 0
     failures: list[Failure] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
@@ -64,7 +67,7 @@ class ObjectResult:
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
-        told = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "charts"}
+        told = {item.name: getattr(self, item.name) for item in fields(self) if item.name not in NOT_TOLD}
         told["failures"] = [asdict(failure) for failure in self.failures]
         return {**told, **(asdict(self.quality) if self.quality else {})}
 
@@ -75,6 +78,7 @@ class UnwrapResult:
 
     objects: list[ObjectResult]
     seconds: float
+    notes: list[str] = field(default_factory=list)
 
     @property
     def islands(self) -> int:
@@ -85,6 +89,16 @@ class UnwrapResult:
     def unwrapped(self) -> int:
         """Islands with new UVs."""
         return self.islands - sum(len(ob.failures) for ob in self.objects)
+
+    @property
+    def tried(self) -> bool:
+        """Whether there was a surface, for which other options may do."""
+        return any(ob.tried for ob in self.objects)
+
+    @property
+    def left(self) -> int:
+        """Islands left as they were on purpose: pinned, or not selected as a whole."""
+        return sum(ob.left for ob in self.objects)
 
     @property
     def complete(self) -> bool:
@@ -107,7 +121,7 @@ class UnwrapResult:
     @property
     def remarks(self) -> list[str]:
         """What was mended, left unused or lost, object by object."""
-        told = [f"{ob.name}: {note}" for ob in self.objects for note in dict.fromkeys(ob.notes)]
+        told = self.notes + [f"{ob.name}: {note}" for ob in self.objects for note in dict.fromkeys(ob.notes)]
         told += [f"{ob.name}: {ob.flipped} faces are inverted" for ob in self.objects if ob.flipped]
         told += [
             f"{ob.name}: {ob.lost_to_float32} triangles are too small for the single precision of UVs; "
@@ -124,32 +138,35 @@ class UnwrapResult:
             "islands": self.islands,
             "unwrapped": self.unwrapped,
             "seconds": self.seconds,
+            "notes": self.notes,
             "objects": [ob.as_dict() for ob in self.objects],
         }
 
 
-def object_result(name: str, layer: str, solved: Unwrapped, subdivision: Subdivision | None) -> ObjectResult:
-    """What came of an object that was solved."""
-    done = [chart for chart in solved.charts if chart.map is not None]
+def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
+    """What came of an object; `stored` are the UVs (k, 2) of its surface's corners, None where none were written."""
+    if task.solved is None:
+        tried = task.surface is not None
+        return ObjectResult(task.ob.name, task.layer, refusal=task.refusal, tried=tried, notes=task.notes)
+    charts, written = task.solved.charts, task.written
+    done = [chart for chart, new in zip(charts, written, strict=True) if new]
     failures = [
-        Failure(_faces(chart, subdivision), in_words_of_the_panel(str(chart.error)))
-        for chart in solved.charts
-        if chart.map is None
+        Failure(task.own_faces(chart.faces).tolist(), task.left.get(number) or in_words_of_the_panel(str(chart.error)))
+        for number, chart in enumerate(charts)
+        if not written[number]
     ]
+    lost = task.solved.lost_to_float32(stored)[written] if stored is not None else np.zeros(0)
     return ObjectResult(
-        name,
-        layer,
-        islands=len(solved.charts),
+        task.ob.name,
+        task.layer,
+        islands=len(charts),
         failures=failures,
-        notes=[note for chart in solved.charts for note in chart.notes] + _unconverged(done),
+        left=len(task.left),
+        notes=task.notes + [note for chart in done for note in chart.notes] + _unconverged(done),
         flipped=sum(len(chart.flipped) for chart in done),
-        lost_to_float32=sum(len(chart.map.lost_to_float32) for chart in done),
+        lost_to_float32=int(lost.sum()),
         charts=done,
     )
-
-
-def _faces(chart: Chart, subdivision: Subdivision | None) -> list[int]:
-    return (chart.faces if subdivision is None else subdivision.faces_of(chart.faces)).tolist()
 
 
 def _unconverged(charts: list[Chart]) -> list[str]:

@@ -64,7 +64,8 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
         """Solve, then write; a mesh that can not be mapped is left as it was."""
         import numpy as np
 
-        from conformal_uv import OptionError, sphere_map
+        from conformal_uv import MeshError, OptionError, sphere_map
+        from conformal_uv.errors import renumbered
         from conformal_uv.mesh import PolygonMesh
         from conformal_uv.mesh.triangulate import triangulate
         from conformal_uv.sphere.layout import equirectangular, octahedral
@@ -75,8 +76,12 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
         arrays = read_mesh(ob.data, layer)
         V = arrays.V.astype(np.float64)
         mesh = PolygonMesh(V, arrays.corners.astype(np.int64), arrays.starts.astype(np.int64))
-        used, F = np.unique(triangulate(mesh)[0], return_inverse=True)
-        result = sphere_map(V[used], F.reshape(-1, 3), method=self.method.lower(), rotation="surface")
+        triangles, polygon, _ = triangulate(mesh)
+        used, F = np.unique(triangles, return_inverse=True)
+        try:
+            result = sphere_map(V[used], F.reshape(-1, 3), method=self.method.lower(), rotation="surface")
+        except MeshError as error:
+            raise renumbered(error, polygon, used) from error
         positions, xyz = V.copy(), np.zeros_like(V)
         positions[used], xyz[used] = result.around_surface, result.xyz
         write_shape_key(ob, SHAPE_KEY, positions)

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from conformal_uv import Unwrapped
 
 from .edit_mode import active_vertex, settled_mesh
 from .kept_work import Surface
-from .mesh_io import has_room, read_mesh, uv_layer_name
+from .mesh_io import has_room, read_mesh, selected_uvs, uv_layer_name
 from .properties import Options
 from .subdivided import Subdivision, read_subdivided
+
+NO_ACTIVE = "no vertex is active, the center is automatic; in Edit Mode, click a vertex first"
 
 
 @dataclass(eq=False)
@@ -25,21 +28,65 @@ class Task:
     ----------
     refusal : str
         Why nothing can be done, empty where something can.
+    pinned, unselected : (q,) bool
+        The object's own faces with a pinned UV, and with a UV that is not selected where only selected ones are taken.
     subdivision : Subdivision or None
         Where the surface is not the mesh itself, the way back to the mesh.
+    solved : Unwrapped or None
+        On unit disks.
+    left : dict of int to str
+        Charts that are mapped but not to be written, and why.
     """
 
     ob: bpy.types.Object
     layer: str
     surface: Surface | None
     refusal: str = ""
+    pinned: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    unselected: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
     subdivision: Subdivision | None = None
+    notes: list[str] = field(default_factory=list)
     solved: Unwrapped | None = None
+    left: dict[int, str] = field(default_factory=dict)
+
+    def own_faces(self, faces: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The object's faces for some of the surface's."""
+        return faces if self.subdivision is None else self.subdivision.faces_of(faces)
+
+    def take(self, solved: Unwrapped) -> None:
+        """Keep what was solved, and find the islands whose UVs are to stay as they are."""
+        self.solved, self.left = solved, {}
+        for number, chart in enumerate(solved.charts):
+            if chart.map is None:
+                continue
+            own = self.own_faces(chart.faces)
+            if self.pinned[own].any() and chart.map.pins is None:
+                self.left[number] = "pinned UVs stay where they are; unpin them, or pin three on the boundary and turn "
+                self.left[number] += "on Use Pins"
+            elif self.unselected[own].any():
+                self.left[number] = "some of its UVs are not selected; select whole islands"
+
+    @property
+    def written(self) -> NDArray[np.bool_]:
+        """Charts with new UVs, (c,)."""
+        if self.solved is None:
+            return np.zeros(0, dtype=bool)
+        done = [chart.map is not None and number not in self.left for number, chart in enumerate(self.solved.charts)]
+        return np.array(done, dtype=bool)
+
+    @property
+    def mapped(self) -> NDArray[np.bool_]:
+        """Faces of the surface with new UVs, (p,)."""
+        return self.solved.mapped & np.append(self.written, False)[self.solved.chart_of_face]
 
 
 def gather(context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options) -> list[Task]:
     """Read the objects' meshes; a task for each."""
-    return [_task(context, ob, options) for ob in objects]
+    tasks = [_task(context, ob, options) for ob in objects]
+    for task in tasks:
+        if options.center == "ACTIVE" and task.surface is not None and task.surface.active is None:
+            task.notes.append(NO_ACTIVE)
+    return tasks
 
 
 def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) -> Task:
@@ -52,15 +99,33 @@ def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) ->
     chosen = ~arrays.hidden
     if options.faces == "SELECTED" and (ob.mode == "EDIT" or (chosen & arrays.selected).any()):
         chosen &= arrays.selected
+    unselected = np.zeros(len(chosen), dtype=bool)
+    if options.faces == "SELECTED" and options.only_selected_uvs and ob.mode == "EDIT":
+        with settled_mesh(ob) as mesh:
+            uvs = selected_uvs(mesh)
+        face = np.repeat(np.arange(len(chosen)), np.diff(arrays.starts))
+        count = np.bincount(face[uvs], minlength=len(chosen))
+        chosen &= count > 0
+        unselected = count < np.diff(arrays.starts)
+        if not chosen.any():
+            return Task(ob, layer, None, "no UV is selected")
     if not chosen.any():
         return Task(ob, layer, None, "no visible face is selected" if ob.mode == "EDIT" else "no face is visible")
     active = active_vertex(ob) if options.center == "ACTIVE" else None
     if active is not None and not np.isin(active, arrays.corners[np.repeat(chosen, np.diff(arrays.starts))]):
         return Task(ob, layer, None, f"active vertex {active} belongs to no selected face")
+    pinned = arrays.pinned
     subdivision = read_subdivided(context, ob, arrays) if options.use_subsurf_data else None
     if subdivision is not None:
         arrays, chosen = subdivision.arrays, chosen[subdivision.face]
-    return Task(ob, layer, Surface(arrays, chosen, active), subdivision=subdivision)
+    return Task(
+        ob,
+        layer,
+        Surface(arrays, chosen, active),
+        pinned=pinned,
+        unselected=unselected,
+        subdivision=subdivision,
+    )
 
 
 def _refusal(ob: bpy.types.Object, mesh: bpy.types.Mesh, layer: str) -> str:

@@ -15,9 +15,9 @@ from .edit_mode import object_mode
 from .image_aspect import ROUND, aspect_scale
 from .kept_work import KEPT, KeptWork, Key
 from .mesh_io import write_uv
-from .packing import pack_with_blender
+from .packing import placed
 from .properties import Options
-from .results import ObjectResult, UnwrapResult, in_words_of_the_panel, object_result
+from .results import UnwrapResult, in_words_of_the_panel, object_result
 from .tasks import Task, gather
 
 
@@ -43,8 +43,8 @@ def solve(
     todo = [task for task in tasks if task.surface is not None and not task.refusal]
     for number, task in enumerate(todo):
         try:
-            task.solved = kept.unwrapped(
-                task.surface, options, callback=_part(callback, number, len(todo)), backend=backend
+            task.take(
+                kept.unwrapped(task.surface, options, callback=_part(callback, number, len(todo)), backend=backend)
             )
         except CancelledError:
             raise
@@ -60,40 +60,29 @@ def unwrap_objects(
     start = time.perf_counter()
     tasks = gather(context, objects, options)
     KEPT.keep_only(solve(tasks, options, KEPT))
-    done = [task for task in tasks if task.solved is not None and task.solved.mapped.any()]
+    done = [task for task in tasks if task.written.any()]
+    remarks: list[str] = []
+    together = context.mode == "EDIT_MESH" or options.place == "PACK"
+    stored: dict[int, np.ndarray] = {}
     with object_mode(context):
-        placed = pack_with_blender(context, done, options) if options.place == "PACK" and done else None
-        for number, task in enumerate(done):
-            _write(task, _placed(task) if placed is None else placed[number], options)
-    results = [_result(task) for task in tasks]
-    return UnwrapResult(results, time.perf_counter() - start)
+        for group in [done] if together and done else [[task] for task in done]:
+            for task, uv in zip(group, placed(context, group, options, remarks), strict=True):
+                scale = aspect_scale(task.ob) if options.correct_aspect else ROUND
+                stored[id(task)] = uv if scale == ROUND else 0.5 + scale * (uv - 0.5)
+        for task in done:
+            _write(task, stored[id(task)])
+    results = [object_result(task, stored.get(id(task))) for task in tasks]
+    return UnwrapResult(results, time.perf_counter() - start, list(dict.fromkeys(remarks)))
 
 
-def _placed(task: Task) -> np.ndarray:
-    """UVs in the unit square for every corner of what was solved."""
-    solved = task.solved
-    if sum(chart.map is not None for chart in solved.charts) == 1:
-        return 0.5 + 0.5 * solved.uv
-    return solved.uv
-
-
-def _write(task: Task, uv: np.ndarray, options: Options) -> None:
-    mapped = task.solved.mapped
-    scale = aspect_scale(task.ob) if options.correct_aspect else ROUND
-    if scale != ROUND:
-        uv = 0.5 + scale * (uv - 0.5)
+def _write(task: Task, uv: np.ndarray) -> None:
+    mapped = task.mapped
     if task.subdivision is not None:
         uv, mapped = uv[task.subdivision.corner], task.subdivision.whole_faces(mapped)
         sizes = np.diff(task.subdivision.starts)
     else:
         sizes = np.diff(task.surface.arrays.starts)
     write_uv(task.ob.data, task.layer, uv, np.repeat(mapped, sizes))
-
-
-def _result(task: Task) -> ObjectResult:
-    if task.solved is None:
-        return ObjectResult(task.ob.name, task.layer, refusal=task.refusal)
-    return object_result(task.ob.name, task.layer, task.solved, task.subdivision)
 
 
 def _part(callback: Callback | None, number: int, count: int) -> Callable[[str, float], object] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import islice
 
 __all__ = [
@@ -22,6 +22,7 @@ __all__ = [
     "TopologyError",
     "UnreferencedVertexError",
     "listed",
+    "renumbered",
 ]
 
 
@@ -100,3 +101,21 @@ def listed(indices: Iterable[int], most: int = 8) -> str:
     values = [int(i) for i in indices]
     text = ", ".join(str(i) for i in islice(values, most))
     return text if len(values) <= most else f"{text}, ... ({len(values)} in all)"
+
+
+def renumbered(error: ConformalUVError, faces: Sequence[int], vertices: Sequence[int]) -> ConformalUVError:
+    """The same error for one who numbers faces and vertices otherwise.
+
+    Parameters
+    ----------
+    faces, vertices : sequences of int
+        The other number of each face and vertex; several faces may have one.
+    """
+    text, own = str(error), listed(error.indices)
+    for kind, name in (("faces", faces), ("vertices", vertices)):
+        if error.indices and f"{kind} {own}" in text:
+            other = sorted({int(name[index]) for index in error.indices})
+            text = text.replace(f"{kind} {own}", f"{kind} {listed(other)}")
+            text = text.replace(f"{len(error.indices)} {kind}", f"{len(other)} {kind}")
+            return type(error)(text, other)
+    return error

@@ -28,11 +28,19 @@ def enable():
 
 
 def unwrap_file(path, target, options):
-    """Unwrap all meshes of one file; True where all of them could be."""
-    bpy.ops.wm.open_mainfile(filepath=str(path.resolve()))
+    """Unwrap all meshes of one file; True where all of them could be. What goes wrong is told, and the next file read.
+
+    The operator raises RuntimeError where nothing of a mesh could be unwrapped; of some islands its result tells.
+    """
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()))
+    except RuntimeError as error:
+        print(f"{path}: {error}", file=sys.stderr)
+        return False
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     meshes = [ob for ob in bpy.context.view_layer.objects if ob.type == "MESH" and ob.data.polygons]
+    addon = sys.modules[bpy.types.UV_OT_conformal_unwrap.__module__.rpartition(".")[0]]
     complete = True
     for ob in meshes:
         for other in bpy.context.view_layer.objects:
@@ -40,10 +48,17 @@ def unwrap_file(path, target, options):
         bpy.context.view_layer.objects.active = ob
         try:
             bpy.ops.uv.conformal_unwrap(faces="ALL", **options)
-        except RuntimeError as error:  # what the operator reports as an error
+            why = "" if addon.last_result.last().complete else addon.last_result.last().message
+        except RuntimeError as error:
+            why = str(error)
+        if why:
             complete = False
-            print(f"{path.name}: {error}", file=sys.stderr)
-    bpy.ops.wm.save_as_mainfile(filepath=str(target.resolve()))
+            print(f"{path}: {why}", file=sys.stderr)
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(target.resolve()))
+    except RuntimeError as error:
+        print(f"{target}: {error}", file=sys.stderr)
+        return False
     print(f"{path} -> {target}: {len(meshes)} meshes")
     return complete
 
@@ -56,10 +71,13 @@ def main():
     parser.add_argument("--method", default="NEWTON", choices=("LINEAR", "NEWTON", "AUGMENTED_LAGRANGIAN"))
     parser.add_argument("--closed", default="REFUSE", choices=("REFUSE", "CUT"))
     arguments = parser.parse_args(sys.argv[after:])
+    targets = [arguments.folder / path.name for path in arguments.files]
+    if len({target.resolve() for target in targets} | {path.resolve() for path in arguments.files}) < 2 * len(targets):
+        parser.error("results would replace each other or the files given; rename files, or give another folder")
     enable()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     options = {"method": arguments.method, "closed": arguments.closed}
-    done = [unwrap_file(path, arguments.folder / path.name, options) for path in arguments.files]
+    done = [unwrap_file(path, target, options) for path, target in zip(arguments.files, targets, strict=True)]
     sys.exit(0 if all(done) else 1)
 
 

@@ -2,7 +2,8 @@
 
 from .chart import Chart, Unwrapped
 from .placement import Placement
+from .together import pack_together
 from .unwrap import unwrap
 from .unwrapper import Unwrapper
 
-__all__ = ["Chart", "Placement", "Unwrapped", "Unwrapper", "unwrap"]
+__all__ = ["Chart", "Placement", "Unwrapped", "Unwrapper", "pack_together", "unwrap"]

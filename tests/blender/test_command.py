@@ -84,3 +84,51 @@ def test_batch_example(addon, blend, tmp_path, monkeypatch, capsys):
     for path in (folder / "in.blend", folder / "other.blend"):
         bpy.ops.wm.open_mainfile(filepath=str(path))
         assert np.ptp(scenes.uvs(bpy.data.objects["Grid"]), axis=0) == pytest.approx([1.0, 1.0], abs=0.02)
+
+
+def test_batch_example_goes_on_after_a_bad_file(addon, blend, tmp_path, monkeypatch, capsys):
+    bad, other = tmp_path / "bad.blend", tmp_path / "other.blend"
+    bad.write_bytes(b"no file of Blender's")
+    other.write_bytes(blend.read_bytes())
+    folder = tmp_path / "unwrapped"
+
+    def exit_code(*arguments):
+        monkeypatch.setattr(sys, "argv", ["python", *map(str, arguments), "--folder", str(folder)])
+        with pytest.raises(SystemExit) as stop:
+            runpy.run_path(str(REPOSITORY / "examples" / "blender_batch_unwrap.py"), run_name="__main__")
+        return stop.value.code
+
+    assert exit_code(bad, blend, other, "--closed", "CUT") == 1
+    assert "bad.blend" in capsys.readouterr().err
+    assert (folder / "in.blend").exists() and (folder / "other.blend").exists() and not (folder / "bad.blend").exists()
+    assert exit_code(blend) == 1  # the cube is closed
+    assert "Cube" in capsys.readouterr().err
+    twin = tmp_path / "twin" / "in.blend"
+    assert exit_code(blend, twin) == 2
+
+
+def test_places_are_checked_before_any_work(addon, blend, tmp_path, capfd, factorizations):
+    out = tmp_path / "out.blend"
+    for arguments, told in (
+        (("-o", tmp_path / "nowhere" / "out.blend"), "nowhere"),
+        (("-o", out, "--json", tmp_path / "nowhere" / "report.json"), "nowhere"),
+        (("-o", out, "--json", out), "-o and --json are both"),
+        (("-o", out, "--json", blend), "--json is the input"),
+        (("-o", "/dev/null"), "can not be written there"),
+    ):
+        assert run(addon, blend, *arguments) == 1
+        assert told in capfd.readouterr().err
+    assert not out.exists() and not factorizations
+
+
+def test_numbers_that_can_not_be_written_keep_nothing_else_from_its_file(addon, blend, tmp_path, monkeypatch, capfd):
+    import conformal_uv.files as files
+    from conformal_uv import FileFormatError
+
+    def failing(path):
+        raise FileFormatError(f"{path}: no space left")
+
+    monkeypatch.setattr(files, "replaced_file", failing)
+    out = tmp_path / "out.blend"
+    assert run(addon, blend, "-o", out, "--object", "Grid", "--json", tmp_path / "report.json") == 1
+    assert out.exists() and "no space left" in capfd.readouterr().err

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+import scenes
 
 import conformal_uv as cuv
 
@@ -63,4 +64,14 @@ def test_a_mesh_that_is_no_sphere_is_left_alone(egg):
 def test_poll_says_why(egg):
     egg.select_set(False)
     with pytest.raises(RuntimeError, match="Select a mesh object"):
+        bpy.ops.object.conformal_sphere()
+
+
+def test_errors_name_polygons():
+    """A box of quads with one of them standing twice, and a loose vertex before all others."""
+    V = [[5, 5, 5]] + [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    quads = [[v + 1 for v in quad] for quad in quads]
+    scenes.mesh_object(V, [*quads[:-1], quads[-1][::-1]])
+    with pytest.raises(RuntimeError, match="1 faces are wound against their neighbours: faces 5[.]"):
         bpy.ops.object.conformal_sphere()

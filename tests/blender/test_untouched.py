@@ -138,18 +138,19 @@ def test_bad_meshes_are_told_not_thrown():
     loose.data.edges.add(1)
     loose.data.edges[-1].vertices = (0, 3)
     loose.data.edges[-1].use_seam = True
-    before = [scenes.shadowed(scenes.uvs(ob)) for ob in (nan, fin)]
+    before = scenes.shadowed(scenes.uvs(nan))
     scenes.select(nan, fin, wire, good, loose)
     assert bpy.ops.uv.conformal_unwrap() == {"FINISHED"}
-    assert [scenes.shadowed(scenes.uvs(ob)) for ob in (nan, fin)] == before
+    assert scenes.shadowed(scenes.uvs(nan)) == before
 
 
 def test_every_bad_mesh_is_named(addon):
     test_bad_meshes_are_told_not_thrown()
     result = addon.last_result.last()
-    assert result.message.startswith("Unwrapped 2 of 4 islands of 5 objects; ")
-    for part in ("Nowhere, faces", "NaN", "Fin, faces 0, 1, 2: 1 edges have three", "Wire: the mesh has no faces"):
+    assert result.message.startswith("Unwrapped 5 of 6 islands of 5 objects; ")
+    for part in ("Nowhere, faces", "NaN", "Wire: the mesh has no faces"):
         assert part in result.message
+    assert result.remarks == ["Fin: cut along 1 edges of three or more faces"]  # as Blender's own unwrap does
     assert "pass " not in result.message and '="' not in result.message
 
 
@@ -166,16 +167,86 @@ def test_packing_meshes_of_extreme_sizes(size):
         assert uv.min() >= -1e-6 and uv.max() <= 1.0 + 1e-6 and np.ptp(uv, axis=0).min() > 0.3
 
 
-def test_without_rectangle_packer(monkeypatch):
+def test_without_rectangle_packer(addon, monkeypatch):
     monkeypatch.setitem(sys.modules, "rpack", None)
     ob = scenes.primitive("cube")
     for edge in ob.data.edges:
         edge.use_seam = True
     before = scenes.shadowed(scenes.uvs(ob))
-    with pytest.raises(RuntimeError, match="Cube: .*rectangle-packer.*set Place to Keep Size and Pack"):
-        bpy.ops.uv.conformal_unwrap()
-    assert scenes.shadowed(scenes.uvs(ob)) == before
+    assert bpy.ops.uv.conformal_unwrap() == {"FINISHED"}
+    assert scenes.shadowed(scenes.uvs(ob)) != before
+    assert addon.last_result.last().remarks == ["rectangle-packer is not installed; Blender packed the islands"]
+    assert_apart(ob)
     assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}
+    assert addon.last_result.last().remarks == []
+
+
+def assert_apart(*objects):
+    """Islands, a face each, lie in the unit square without touching."""
+    quads = [quad for ob in objects for quad in scenes.uvs(ob).reshape(-1, 4, 2).astype(float)]
+    assert min(quad.min() for quad in quads) >= -1e-6 and max(quad.max() for quad in quads) <= 1.0 + 1e-6
+    for k, quad in enumerate(quads):
+        for other in quads[:k]:
+            sides = np.concatenate([np.roll(q, -1, axis=0) - q for q in (quad, other)])
+            across = sides @ [[0.0, 1.0], [-1.0, 0.0]]  # convex shapes are apart along a normal of one of their sides
+            one, two = quad @ across.T, other @ across.T
+            assert ((one.min(axis=0) > two.max(axis=0)) | (two.min(axis=0) > one.max(axis=0))).any()
+
+
+def separate_faces(location=(0.0, 0.0, 0.0)):
+    ob = scenes.primitive("cube", location=location)
+    for edge in ob.data.edges:
+        edge.use_seam = True
+    return ob
+
+
+@pytest.mark.parametrize("works", ["AABB", ""])
+def test_packing_where_blenders_packer_does_nothing(addon, monkeypatch, works):
+    """On 4.3 pack_islands with CONVEX does nothing once Esc was pressed anywhere."""
+    module = sys.modules[f"{addon.__name__}.packing"]
+
+    class Packer:
+        def __getattr__(self, name):
+            return getattr(bpy.ops.uv, name)
+
+        def pack_islands(self, **options):
+            return bpy.ops.uv.pack_islands(**options) if options["shape_method"] == works else {"FINISHED"}
+
+    class Operators:
+        uv = Packer()
+
+        def __getattr__(self, name):
+            return getattr(bpy.ops, name)
+
+    class Blender:
+        ops = Operators()
+
+        def __getattr__(self, name):
+            return getattr(bpy, name)
+
+    ob = separate_faces()
+    monkeypatch.setattr(module, "bpy", Blender())
+    assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}
+    assert_apart(ob)
+    told = "Blender's packer left the islands as they were; conformal_uv packed them"
+    assert addon.last_result.last().remarks == ([] if works else [told])
+    if not works:
+        monkeypatch.setitem(sys.modules, "rpack", None)
+        assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}
+        assert_apart(ob)
+
+
+def test_objects_in_edit_mode_are_packed_together():
+    one, other = separate_faces(), separate_faces((3.0, 0.0, 0.0))
+    scenes.select(one, other)
+    scenes.edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.uv.conformal_unwrap() == {"FINISHED"}
+    scenes.leave()
+    assert_apart(one, other)
+    assert bpy.ops.uv.conformal_unwrap() == {"FINISHED"}  # in Object Mode each has the square for itself
+    assert_apart(one)
+    np.testing.assert_array_equal(scenes.uvs(one), scenes.uvs(other))
 
 
 def test_selection_and_active_object_after_edit_mode():

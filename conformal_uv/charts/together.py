@@ -1,0 +1,66 @@
+"""Charts of several results packed into one unit square."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..operators import face_areas
+from .chart import Chart, Unwrapped
+from .placement import placements
+
+__all__ = ["pack_together"]
+
+
+def pack_together(
+    results: Sequence[Unwrapped], wanted: Sequence[NDArray[np.bool_]], margin: float | None = None
+) -> list[NDArray[np.float64]]:
+    """Texture coordinates of several meshes whose charts share one unit square.
+
+    Areas of images are to areas of surfaces as one number to all; a chart alone fills the square.
+
+    Parameters
+    ----------
+    results : sequence of Unwrapped
+        Made with ``place="disk"``.
+    wanted : sequence of (c,) bool
+        The charts of each result that are to be placed, mapped ones.
+    margin : float, optional
+        Between disks and to the sides, as in `unwrap`.
+
+    Returns
+    -------
+    list of (k, 2) float64
+        Of every polygon corner of each result; others than the wanted charts' as they are in the disk.
+
+    Raises
+    ------
+    MissingDependencyError
+        There are several charts and rectangle-packer is not installed.
+    """
+    charts = [(number, chart) for number, chart in _chosen(results, wanted)]
+    area = np.array([face_areas(chart.mesh.V, chart.F).sum() for _, chart in charts])
+    largest = float(area.max(initial=0.0))
+    image = np.array([_image_area(chart) for _, chart in charts])
+    placed = placements("fit", margin, area / largest if largest > 0.0 else area, image)
+    out = [result.uv.copy() for result in results]
+    for (number, chart), place in zip(charts, placed, strict=True):
+        own = np.unique(chart.corners)
+        out[number][own] = np.asarray(place.center) + place.scale * results[number].uv[own]
+    return out
+
+
+def _chosen(results: Sequence[Unwrapped], wanted: Sequence[NDArray[np.bool_]]) -> list[tuple[int, Chart]]:
+    return [
+        (number, chart)
+        for number, (result, mask) in enumerate(zip(results, wanted, strict=True))
+        for chart, take in zip(result.charts, mask, strict=True)
+        if take
+    ]
+
+
+def _image_area(chart: Chart) -> float:
+    assert chart.map is not None
+    return float(face_areas(chart.map.uv[: len(chart.vertices)], chart.F).sum())
