@@ -14,7 +14,7 @@ from conformal_uv.cli import choices
 from conformal_uv.cli.stages import Stages
 from conformal_uv.cli.summary import print_summary
 from conformal_uv.cli.terminal import plain
-from conformal_uv.files import replaced_file
+from conformal_uv.files import check_distinct, check_place, is_standard_output, replaced_file
 from conformal_uv.interrupt import interruptible
 
 from .conversion import CHECKER, Conversion, check_filter_script, convert
@@ -74,17 +74,21 @@ def disk(
         "quality": quality.value,
     }
     try:
-        targets = _checked(sources, target, suffix, texture, filter_script)
+        targets = _checked(sources, target, suffix, texture, filter_script, json_file)
     except EXPECTED as error:
         typer.echo(plain(_told(error)), err=True)
         raise typer.Exit(1) from error
     if not quiet and any(file.suffix.lower() == ".off" for file in targets):
         typer.echo("warning: MeshLab does not read the texture coordinates of .off files back", err=True)
+    quiet = quiet or is_standard_output(json_file)
     told = _convert_all(sources, targets, Conversion(texture, filter_script, options), quiet)
-    if json_file is not None:
-        with replaced_file(json_file) as out:
-            out.write(json.dumps(told if len(told) > 1 else told[0], indent=2).encode())
     failures = [line for line in map(_failure, told) if line]
+    if json_file is not None:
+        try:
+            with replaced_file(json_file) as out:
+                out.write((json.dumps(told if len(told) > 1 else told[0], indent=2) + "\n").encode())
+        except EXPECTED as error:
+            failures.append(_told(error))
     for line in failures:
         typer.echo(plain(line), err=True)
     if failures:
@@ -92,10 +96,19 @@ def disk(
 
 
 def _checked(
-    sources: list[Path], target: Path, suffix: str | None, texture: str | None, filter_script: Path | None
+    sources: list[Path],
+    target: Path,
+    suffix: str | None,
+    texture: str | None,
+    filter_script: Path | None,
+    json_file: Path | None,
 ) -> list[Path]:
     """The output files; every refusal that needs no work comes from here."""
     targets = output_files(sources, target, suffix)
+    if json_file is not None:
+        for source, own in zip(sources, targets, strict=True):
+            check_distinct(source, {"OUT": own, "--json": json_file})
+        check_place(json_file)
     if texture is not None and texture != CHECKER:
         check_texture(texture)
     if filter_script is not None:

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from conformal_uv import FileFormatError
+from conformal_uv.files import check_place, is_stream
 
 __all__ = ["UV_FORMATS", "check_target"]
 
@@ -19,7 +20,7 @@ def check_target(path: str | os.PathLike[str]) -> Path:
     ------
     FileFormatError
         pymeshlab writes no such files, or they lose texture coordinates; the folder does not exist or is
-        write-protected; the file is a folder or write-protected.
+        write-protected; the file is a folder, a device or write-protected.
     """
     path = Path(path)
     if path.suffix.lower() not in UV_FORMATS:
@@ -27,10 +28,7 @@ def check_target(path: str | os.PathLike[str]) -> Path:
             f"{path}: pymeshlab writes no texture coordinates to {path.suffix or 'files without suffix'}; "
             f"use {', '.join(UV_FORMATS)}"
         )
-    if not path.parent.is_dir():
-        raise FileFormatError(f"{path}: the folder {path.parent} does not exist; create it first")
-    if path.is_dir():
-        raise FileFormatError(f"{path}: this is a folder; give the name of a file")
-    if not os.access(path if path.exists() else path.parent, os.W_OK) or not os.access(path.parent, os.W_OK):
-        raise FileFormatError(f"{path}: write-protected; choose another name or folder")
+    if is_stream(path):
+        raise FileFormatError(f"{path}: pymeshlab writes no devices or pipes; give the name of a file")
+    check_place(path)
     return path

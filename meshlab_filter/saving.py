@@ -76,9 +76,11 @@ def _move(folder: Path, target: Path, keep_images: bool) -> None:
     """Put all written files in place, the mesh last."""
     written = sorted((file for file in folder.rglob("*") if file.is_file()), key=lambda file: file.name == target.name)
     for file in written:
-        place = target.parent / file.relative_to(folder)
+        place = Path(os.path.realpath(target.parent / file.relative_to(folder)))  # behind symbolic links
         companion = place.name == target.name or place.suffix.lower() == ".mtl"
         if keep_images and not companion and place.exists():
             continue
         place.parent.mkdir(parents=True, exist_ok=True)
+        if place.exists():
+            os.chmod(file, place.stat().st_mode & 0o7777)
         os.replace(file, place)

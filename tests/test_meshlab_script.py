@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from importlib.metadata import entry_points
@@ -61,6 +62,35 @@ def test_checker_quality_and_json(surface: Path, tmp_path: Path):
     assert numbers["filter"]["mapped_faces"] == len(F)
     for word in ("500 vertices", "newton", "angle error"):
         assert word in done.stdout
+
+
+def test_numbers_on_standard_output_stand_alone(surface: Path, tmp_path: Path):
+    told = run(surface, tmp_path / "out.obj", "--json", "-").stdout
+    assert json.loads(told)["filter"]["mapped_faces"] == len(mask(500)[1])
+
+
+def test_outputs_that_would_overwrite_each_other_or_the_input(surface: Path, tmp_path: Path):
+    source = tmp_path / "in.obj"
+    source.write_bytes(saved(tmp_path / "mask.obj", *mask(200)).read_bytes())
+    before = source.read_bytes()
+    assert "--json is the input" in run(source, tmp_path / "out.obj", "--json", source, code=1).stderr
+    assert "both" in run(source, tmp_path / "out.obj", "--json", tmp_path / "out.obj", code=1).stderr
+    assert "nowhere" in run(source, tmp_path / "out.obj", "--json", tmp_path / "nowhere" / "n.json", code=1).stderr
+    assert source.read_bytes() == before and not (tmp_path / "out.obj").exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names here")
+def test_pipes_are_not_replaced_and_links_are_followed(surface: Path, tmp_path: Path):
+    os.mkfifo(tmp_path / "pipe.obj")
+    assert "devices or pipes" in run(surface, tmp_path / "pipe.obj", code=1).stderr
+    assert (tmp_path / "pipe.obj").is_fifo()
+    real, link = tmp_path / "real.ply", tmp_path / "link.ply"
+    real.write_text("")
+    real.chmod(0o640)
+    link.symlink_to(real)
+    run(surface, link)
+    assert link.is_symlink() and loaded(real).face_number() == len(mask(500)[1])
+    assert real.stat().st_mode & 0o777 == 0o640
 
 
 def test_formats_that_lose_uvs_are_refused_by_name_before_any_work(tmp_path: Path):
