@@ -3,9 +3,9 @@
     python -m tools.build_extension [--output dist/blender] [--platform linux-x64 ...]
 
 One zip for each platform, with the project's own wheel and unmodified wheels of scipy, cvxopt, mapbox-earcut and
-rectangle-packer for the Pythons of Blender 4.2 to 5.0 (3.11) and 5.1 to 5.2 (3.13); and one for Blenders of distributions, whose Python has
-scipy already, with no wheel but the project's own, which runs on any Python. numpy is Blender's own everywhere. The
-tool that builds and validates is Blender's, out of the bpy wheel.
+rectangle-packer for the Pythons of Blender 4.2 to 5.0 (3.11) and 5.1 to 5.2 (3.13); and one for Blenders of
+distributions, whose Python has scipy already, with no wheel but the project's own, which runs on any Python. numpy is
+Blender's own everywhere. The tool that builds and validates is Blender's, out of the bpy wheel.
 """
 
 from __future__ import annotations
