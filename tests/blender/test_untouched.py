@@ -145,6 +145,7 @@ def test_bad_meshes_are_told_not_thrown():
 
 
 def test_every_bad_mesh_is_named(addon):
+    pytest.importorskip("rpack")
     test_bad_meshes_are_told_not_thrown()
     result = addon.last_result.last()
     assert result.message.startswith("Unwrapped 5 of 6 islands of 5 objects; ")
@@ -203,6 +204,7 @@ def separate_faces(location=(0.0, 0.0, 0.0)):
 @pytest.mark.parametrize("works", ["AABB", ""])
 def test_packing_where_blenders_packer_does_nothing(addon, monkeypatch, works):
     """On 4.3 pack_islands with CONVEX does nothing once Esc was pressed anywhere."""
+    pytest.importorskip("rpack")
     module = sys.modules[f"{addon.__name__}.packing"]
 
     class Packer:

@@ -52,6 +52,7 @@ def test_boundary_lies_on_the_circle():
 
 
 def test_seams_of_a_cube():
+    pytest.importorskip("rpack")
     ob = scenes.primitive("cube")
     for edge in ob.data.edges:
         edge.use_seam = True
@@ -62,6 +63,7 @@ def test_seams_of_a_cube():
 
 
 def test_suzanne_cut_down_the_middle():
+    pytest.importorskip("rpack")
     ob = scenes.primitive("monkey")
     scenes.mark_seams(ob, lambda a, b: abs(a.x) < 1e-6 and abs(b.x) < 1e-6)
     assert bpy.ops.uv.conformal_unwrap() == {"FINISHED"}
@@ -84,6 +86,7 @@ def test_polygons_stay_as_they_are():
 
 def test_several_objects_at_once():
     """In Object Mode each fills the square; in Edit Mode they share it."""
+    pytest.importorskip("rpack")
     one, other = scenes.grid(name="One"), scenes.grid(7, 5, 0.3, name="Other")
     scenes.select(one, other)
     assert bpy.ops.uv.conformal_unwrap() == {"FINISHED"}
@@ -158,6 +161,7 @@ def test_closed_surface_is_refused_or_cut():
 
 
 def test_subdivided_surface():
+    pytest.importorskip("rpack")
     ob = scenes.grid(6, 4, 0.6)
     scenes.mark_seams(ob, lambda a, b: abs(a.x) < 1e-6 and abs(b.x) < 1e-6)
     ob.modifiers.new("Array", "ARRAY")  # others are left out
