@@ -12,6 +12,7 @@ import numpy as np
 
 from conformal_uv import Unwrapped, Unwrapper
 from conformal_uv.mesh.polygons import PolygonMesh
+from conformal_uv.options import Closed, Holes, Method, NonManifold, Orientation, Repair
 from conformal_uv.progress import Callback
 
 from .mesh_io import MeshArrays, pinned_vertices
@@ -101,10 +102,10 @@ def _unwrapper(surface: Surface, options: Options, callback: Callback | None, ba
         mesh,
         seams=arrays.seams,
         selection=surface.chosen,
-        holes="fill" if options.fill_holes else "refuse",
-        closed=options.closed.lower(),
-        nonmanifold="cut",
-        orientation="mend",
+        holes=Holes.FILL if options.fill_holes else Holes.REFUSE,
+        closed=Closed[options.closed],
+        nonmanifold=NonManifold.CUT,
+        orientation=Orientation.MEND,
         backend=backend,
         callback=callback,
     )
@@ -113,9 +114,9 @@ def _unwrapper(surface: Surface, options: Options, callback: Callback | None, ba
 def _call(surface: Surface, options: Options) -> dict[str, Any]:
     """Options that a factorization does not depend on, as keywords of Unwrapper.unwrap."""
     return {
-        "method": options.method.lower().replace("_", "-"),
+        "method": Method[options.method],
         "pins": set(pinned_vertices(surface.arrays, surface.chosen)) if options.use_pins else None,
         "center": surface.active if options.center == "ACTIVE" else None,
         "rotation": options.rotation,
-        "repair": "auto" if options.repair else "never",
+        "repair": Repair.AUTO if options.repair else Repair.NEVER,
     }

@@ -5,27 +5,40 @@ from dataclasses import dataclass, fields
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
-METHODS = (
-    ("LINEAR", "Linear", "One factorization: the Riemann map read off a Green's function; the fastest"),
-    (
-        "NEWTON",
-        "Newton",
-        "The least conformal energy, by Newton's method on the boundary angles; where an island is crowded, Linear may "
-        "keep angles better",
-    ),
-    (
-        "AUGMENTED_LAGRANGIAN",
-        "Augmented Lagrangian",
-        "The algorithm of Choi's report with three pins; slow, for comparison",
-    ),
+from conformal_uv.options import Closed, Method
+
+
+def items(told):
+    """Items of an EnumProperty: the library's choices by their Python names, each with its label and description."""
+    return tuple((choice.name, label, description) for choice, (label, description) in told.items())
+
+
+METHODS = items(
+    {
+        Method.LINEAR: (
+            "Linear",
+            "One factorization: the Riemann map read off a Green's function; the fastest",
+        ),
+        Method.NEWTON: (
+            "Newton",
+            "The least conformal energy, by Newton's method on the boundary angles; where an island is crowded, Linear "
+            "may keep angles better",
+        ),
+        Method.AUGMENTED_LAGRANGIAN: (
+            "Augmented Lagrangian",
+            "The algorithm of Choi's report with three pins; slow, for comparison",
+        ),
+    }
 )
 CENTERS = (
     ("AUTOMATIC", "Automatic", "The vertex deepest inside each island"),
     ("ACTIVE", "Active Vertex", "The active vertex of each object, in the island in whose interior it lies"),
 )
-CLOSED = (
-    ("REFUSE", "Refuse", "Leave islands without a boundary, or with handles, as they are and say so"),
-    ("CUT", "Cut", "Cut them open along edges"),
+CLOSED = items(
+    {
+        Closed.REFUSE: ("Refuse", "Leave islands without a boundary, or with handles, as they are and say so"),
+        Closed.CUT: ("Cut", "Cut them open along edges"),
+    }
 )
 PLACES = (
     (
@@ -50,7 +63,7 @@ FACES = (
 class Options:
     """What the user chose; fields as the operator's properties."""
 
-    method: str = "NEWTON"
+    method: str = Method.NEWTON.name
     fill_holes: bool = True
     correct_aspect: bool = True
     use_subsurf_data: bool = False
@@ -58,7 +71,7 @@ class Options:
     center: str = "AUTOMATIC"
     rotation: float = 0.0
     repair: bool = True
-    closed: str = "REFUSE"
+    closed: str = Closed.REFUSE.name
     place: str = "FIT"
     margin: float = 0.005
     faces: str = "SELECTED"

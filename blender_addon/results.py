@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from conformal_uv import Chart
+from conformal_uv import Chart, ConformalUVError
+from conformal_uv.errors import Remedy
 
-from .properties import CENTERS, CLOSED, FACES, METHODS, PLACES
+from .properties import CLOSED, METHODS
 from .tasks import Task
 
 NOT_TOLD = {"charts", "tried", "left"}  # in JSON
@@ -151,7 +151,7 @@ def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
     charts, written = task.solved.charts, task.written
     done = [chart for chart, new in zip(charts, written, strict=True) if new]
     failures = [
-        Failure(task.own_faces(chart.faces).tolist(), task.left.get(number) or in_words_of_the_panel(str(chart.error)))
+        Failure(task.own_faces(chart.faces).tolist(), task.left.get(number) or in_words_of_the_panel(chart.error))
         for number, chart in enumerate(charts)
         if not written[number]
     ]
@@ -185,23 +185,21 @@ def _some(faces: list[int]) -> str:
 
 
 LABELS = {
-    "closed": ("Closed Surfaces", CLOSED),
-    "method": ("Method", METHODS),
-    "center": ("Center", CENTERS),
-    "faces": ("Faces", FACES),
+    "closed": ("Closed Surfaces", {identifier: name for identifier, name, _ in CLOSED}),
+    "method": ("Method", {identifier: name for identifier, name, _ in METHODS}),
 }
-OTHER_WORDS = {"holes": "turn on Fill Holes", "place": f"set Place to {PLACES[1][1]}"}
 
 
-def in_words_of_the_panel(text: str) -> str:
-    """Advice to pass an argument of the library, as the property that a user can set; what has none is left out."""
+def in_words_of_the_panel(error: ConformalUVError) -> str:
+    """The error, with those remedies that the panel or the menus have, as they are called there."""
+    return error.told(_as_in_the_panel)
 
-    def told(match: re.Match[str]) -> str:
-        if match["name"] in OTHER_WORDS:
-            return OTHER_WORDS[match["name"]]
-        label, items = LABELS.get(match["name"], ("", ()))
-        names = {identifier.lower(): name for identifier, name, _ in items}
-        return f"set {label} to {names[match['value']]}" if match["value"] in names else ""
 
-    text = re.sub(r'[Pp]ass (?P<name>\w+)="(?P<value>[\w-]+)"', told, text)
-    return text.replace(" use sphere_map(),", "").replace(", or .", ".").strip()
+def _as_in_the_panel(remedy: Remedy) -> str:
+    if remedy.option == "holes":
+        return "turn on Fill Holes"
+    if remedy.option == "sphere_map":
+        return "use Object > Conformal Sphere Map"
+    label, names = LABELS.get(remedy.option, ("", {}))
+    name = names.get(remedy.value.upper().replace("-", "_"))
+    return f"set {label} to {name}" if name else ""

@@ -51,7 +51,7 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
             try:
                 self._map(ob)
             except ConformalUVError as error:
-                failures.append(f"{ob.name}: {error}")
+                failures.append(f"{ob.name}: {error.told(lambda remedy: '')}")
         done = len(objects) - len(failures)
         message = "; ".join([f"Mapped {done} of {len(objects)} meshes to spheres", *failures])
         if not done:

@@ -49,7 +49,7 @@ def solve(
         except CancelledError:
             raise
         except ConformalUVError as error:
-            task.refusal = in_words_of_the_panel(str(error))
+            task.refusal = in_words_of_the_panel(error)
     return {task.surface.key(options) for task in todo}
 
 

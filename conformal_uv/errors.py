@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from itertools import islice
 
 __all__ = [
@@ -18,12 +19,29 @@ __all__ = [
     "NonManifoldError",
     "OptionError",
     "OrientationError",
+    "Remedy",
     "SolverError",
     "TopologyError",
     "UnreferencedVertexError",
     "listed",
     "renumbered",
 ]
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """A value of an option that would do; or, without a value, a function that does it instead."""
+
+    option: str
+    value: str = ""
+
+    def as_argument(self) -> str:
+        """As one says it to a caller of the library."""
+        return f'pass {self.option}="{self.value}"' if self.value else f"use {self.option}()"
+
+    def as_flag(self) -> str:
+        """As one says it to somebody at a shell."""
+        return f"use --{self.option.replace('_', '-')} {self.value}" if self.value else ""
 
 
 class ConformalUVError(Exception):
@@ -33,11 +51,32 @@ class ConformalUVError(Exception):
     ----------
     indices : tuple of int
         The vertices or faces the message speaks of (all of them), empty where none can be named.
+    message : str
+        What came in, and where.
+    ways : tuple of str and Remedy
+        What to do about it, one or the other; empty where the message says it.
     """
 
-    def __init__(self, message: str, indices: Iterable[int] = ()) -> None:
-        super().__init__(message)
+    def __init__(self, message: str, indices: Iterable[int] = (), ways: Sequence[str | Remedy] = ()) -> None:
+        self.message, self.ways = message, tuple(ways)
         self.indices = tuple(int(i) for i in indices)
+        super().__init__(self.told())
+
+    def told(self, words: Callable[[Remedy], str] | None = None) -> str:
+        """The message with what to do.
+
+        Parameters
+        ----------
+        words : callable, optional
+            How a remedy is said where this is shown ("set Closed Surfaces to Cut"), empty for one that is not at
+            hand there; by default as an argument of the library.
+        """
+        say = words or Remedy.as_argument
+        said = [text for text in (way if isinstance(way, str) else say(way) for way in self.ways) if text]
+        if not said:
+            return self.message
+        sentence = ", or ".join([", ".join(said[:-1]), said[-1]] if len(said) > 1 else said)
+        return f"{self.message} {sentence[0].upper()}{sentence[1:]}."
 
 
 class MeshError(ConformalUVError, ValueError):
@@ -111,11 +150,11 @@ def renumbered(error: ConformalUVError, faces: Sequence[int], vertices: Sequence
     faces, vertices : sequences of int
         The other number of each face and vertex; several faces may have one.
     """
-    text, own = str(error), listed(error.indices)
+    text, own = error.message, listed(error.indices)
     for kind, name in (("faces", faces), ("vertices", vertices)):
         if error.indices and f"{kind} {own}" in text:
             other = sorted({int(name[index]) for index in error.indices})
             text = text.replace(f"{kind} {own}", f"{kind} {listed(other)}")
             text = text.replace(f"{len(error.indices)} {kind}", f"{len(other)} {kind}")
-            return type(error)(text, other)
+            return type(error)(text, other, error.ways)
     return error

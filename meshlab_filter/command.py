@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import json
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from conformal_uv import ConformalUVError, OptionError
-from conformal_uv.cli import choices
 from conformal_uv.cli.stages import Stages
 from conformal_uv.cli.summary import print_summary
 from conformal_uv.cli.terminal import plain
+from conformal_uv.errors import Remedy
 from conformal_uv.files import check_distinct, check_place, is_standard_output, replaced_file
 from conformal_uv.interrupt import interruptible
+from conformal_uv.options import Closed, Holes, Method, NonManifold, Orientation, Repair
 
 from .conversion import CHECKER, Conversion, check_filter_script, convert
 from .library import pymeshlab
+from .quality import Quality
 from .targets import output_files
 from .texcoords import check_texture
 
@@ -29,29 +30,21 @@ app = typer.Typer(name="conformal-uv-meshlab", pretty_exceptions_enable=False, a
 EXPECTED = (ConformalUVError, pymeshlab.PyMeshLabException, OSError)
 
 
-class Quality(StrEnum):
-    """--quality"""
-
-    NONE = "none"
-    ANGLE = "angle"
-    QUASI_CONFORMAL = "quasi-conformal"
-
-
 @app.command()
 @interruptible
 def disk(
     sources: Annotated[list[Path], typer.Argument(metavar="IN...", help="Meshes in any format pymeshlab reads.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="OBJ, PLY, DAE or OFF file, or a folder.")],
-    method: Annotated[choices.Method, typer.Option(help="How the map is found.")] = choices.Method.NEWTON,
-    holes: Annotated[choices.Holes, typer.Option(help="Boundary loops but the longest.")] = choices.Holes.FILL,
-    closed: Annotated[choices.Closed, typer.Option(help="Closed pieces and handles.")] = choices.Closed.REFUSE,
+    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.NEWTON,
+    holes: Annotated[Holes, typer.Option(help="Boundary loops but the longest.")] = Holes.FILL,
+    closed: Annotated[Closed, typer.Option(help="Closed pieces and handles.")] = Closed.REFUSE,
     nonmanifold: Annotated[
-        choices.NonManifold, typer.Option(help="Edges of three faces, pieces that touch in a vertex.")
-    ] = choices.NonManifold.REFUSE,
+        NonManifold, typer.Option(help="Edges of three faces, pieces that touch in a vertex.")
+    ] = NonManifold.REFUSE,
     orientation: Annotated[
-        choices.Orientation, typer.Option(help="Faces wound against their neighbours.")
-    ] = choices.Orientation.REFUSE,
-    repair: Annotated[choices.Repair, typer.Option(help="Folded triangles.")] = choices.Repair.AUTO,
+        Orientation, typer.Option(help="Faces wound against their neighbours.")
+    ] = Orientation.REFUSE,
+    repair: Annotated[Repair, typer.Option(help="Folded triangles.")] = Repair.AUTO,
     center: Annotated[int | None, typer.Option(metavar="V", help="Vertex (from 0) sent to the centre.")] = None,
     texture: Annotated[str | None, typer.Option(metavar="FILE|checker", help="Image to link.")] = None,
     quality: Annotated[Quality, typer.Option(help="Per-face scalar to write (PLY keeps it).")] = Quality.NONE,
@@ -64,14 +57,14 @@ def disk(
 ) -> None:
     """Give meshes conformal UVs: surfaces onto disks, angles kept."""
     options = {
-        "method": method.value,
-        "holes": holes.value,
-        "closed": closed.value,
-        "nonmanifold": nonmanifold.value,
-        "orientation": orientation.value,
-        "repair": repair.value,
+        "method": method,
+        "holes": holes,
+        "closed": closed,
+        "nonmanifold": nonmanifold,
+        "orientation": orientation,
+        "repair": repair,
         "center": center,
-        "quality": quality.value,
+        "quality": quality,
     }
     try:
         targets = _checked(sources, target, suffix, texture, filter_script, json_file)
@@ -165,4 +158,5 @@ def _failure(numbers: dict[str, Any]) -> str | None:
 def _told(error: Exception) -> str:
     """The error in one line, by the class of its cause."""
     cause = error.__cause__ if isinstance(error.__cause__, ConformalUVError) else error
-    return f"{type(cause).__name__}: {' '.join(str(cause).split())}"
+    text = cause.told(Remedy.as_flag) if isinstance(cause, ConformalUVError) else str(cause)
+    return f"{type(cause).__name__}: {' '.join(text.split())}"

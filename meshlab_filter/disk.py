@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conformal_uv import ConformalUVError, OptionError, Unwrapped, unwrap
+from conformal_uv import OptionError, Unwrapped, unwrap
 from conformal_uv.progress import Callback
 
 from .current_mesh import read_current_mesh
 from .exceptions import pymeshlab_errors
 from .function_filters import check_function_filters
-from .quality import check_quality, map_numbers, polygon_quality
+from .quality import Quality, map_numbers, polygon_quality
 from .script_history import unrecorded
 from .texcoords import check_texture, new_texcoords, write_face_scalar, write_texcoords
 
@@ -138,7 +138,7 @@ def map_current_mesh(
 ) -> Mapped:
     """The filter with all that is known of the map; `options` as `conformal_uv.unwrap` takes them."""
     with pymeshlab_errors(NAME):
-        check_quality(quality)
+        scalar = Quality.of("quality", quality)
         if not isinstance(selected_only, bool | np.bool_):
             raise OptionError(f"selected_only is {selected_only!r}; pass True or False.")
         if texture is not None:
@@ -153,22 +153,18 @@ def map_current_mesh(
         numbers = map_numbers(source, result, texcoords)
         with unrecorded(ms):
             write_texcoords(ms, source.mesh, texcoords, texture)
-            if quality != "none":
+            if scalar is not Quality.NONE:
                 polygon = source.wedges.polygon
-                values = polygon_quality(result, quality)[polygon]
+                values = polygon_quality(result, scalar)[polygon]
                 write_face_scalar(ms, source.mesh, values, result.mapped[polygon])
     return Mapped(result, numbers)
 
 
+
 def _check_mapped(result: Unwrapped) -> None:
-    """Raise where no chart was mapped, in one class if all have it; log the reasons where some were not."""
-    errors = [chart.error for chart in result.charts if chart.error is not None]
-    if result.mapped.any():
-        if errors:
-            logger.warning("%s", result.summary)
-        return
-    if len(errors) == 1:
-        raise errors[0]
-    kinds = {type(error) for error in errors}
-    kind = kinds.pop() if len(kinds) == 1 else ConformalUVError
-    raise kind(result.summary, [index for error in errors for index in error.indices])
+    """Raise where no chart was mapped; log the reasons where some were not."""
+    failure = result.failure()
+    if failure is not None:
+        raise failure
+    if any(chart.error is not None for chart in result.charts):
+        logger.warning("%s", result.summary)

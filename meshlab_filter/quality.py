@@ -5,23 +5,25 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv import OptionError, Unwrapped
+from conformal_uv import Unwrapped
+from conformal_uv.options import Choice
 
 from .current_mesh import CurrentMesh
 from .texcoords import Texcoords
 
-__all__ = ["QUALITIES", "check_quality", "map_numbers", "polygon_quality"]
-
-QUALITIES = ("none", "angle", "quasi-conformal")
+__all__ = ["Quality", "map_numbers", "polygon_quality"]
 
 
-def check_quality(quality: str) -> None:
-    """Raise OptionError on a quality that is not known."""
-    if quality not in QUALITIES:
-        raise OptionError(f"quality is {quality!r}; choose {', '.join(QUALITIES)}.")
+
+class Quality(Choice):
+    """Per-face scalar to write."""
+
+    NONE = "none"
+    ANGLE = "angle"
+    QUASI_CONFORMAL = "quasi-conformal"
 
 
-def polygon_quality(result: Unwrapped, quality: str) -> NDArray[np.float64]:
+def polygon_quality(result: Unwrapped, quality: Quality) -> NDArray[np.float64]:
     """Mean angle error (degrees) or quasi-conformal ratio of the triangles of each polygon, (p,).
 
     A ratio without bound (a polygon without area, here or in the image) becomes the largest finite one: MeshLab's
@@ -32,7 +34,7 @@ def polygon_quality(result: Unwrapped, quality: str) -> NDArray[np.float64]:
         if chart.distortion is None:
             continue
         d = chart.distortion
-        value = d.angle_error.mean(axis=1) if quality == "angle" else _bounded(d.quasi_conformal)
+        value = d.angle_error.mean(axis=1) if quality is Quality.ANGLE else _bounded(d.quasi_conformal)
         np.add.at(total, chart.polygon, value)
         np.add.at(count, chart.polygon, 1.0)
     return total / np.maximum(count, 1.0)

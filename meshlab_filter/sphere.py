@@ -7,19 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from conformal_uv import OptionError, SphereMap, sphere_map
+from conformal_uv import SphereMap, sphere_map
 from conformal_uv.progress import Callback
 
 from .current_mesh import read_current_mesh
 from .exceptions import pymeshlab_errors
 from .function_filters import check_function_filters, vertex_variable
+from .quality import Quality
 from .script_history import unrecorded
 from .texcoords import write_face_scalar
 
 __all__ = ["compute_coord_conformal_sphere"]
 
 NAME = "compute_coord_conformal_sphere"
-QUALITIES = ("none", "angle", "quasi-conformal")
 
 
 def compute_coord_conformal_sphere(
@@ -80,8 +80,7 @@ def compute_coord_conformal_sphere(
         A PyMeshLabException: an option is not taken, or the surface is no sphere; ``__cause__`` tells the kind.
     """
     with pymeshlab_errors(NAME):
-        if quality not in QUALITIES:
-            raise OptionError(f"quality is {quality!r}; choose {', '.join(QUALITIES)}.")
+        scalar = Quality.of("quality", quality)
         source = read_current_mesh(ms)
         with unrecorded(ms):
             check_function_filters(ms)
@@ -105,9 +104,9 @@ def compute_coord_conformal_sphere(
         x, y, z = (vertex_variable(source.mesh, f"sphere_{axis}", xyz[:, k]) for k, axis in enumerate("xyz"))
         with unrecorded(ms):
             ms.compute_coord_by_function(x=x, y=y, z=z)
-            if quality != "none":
+            if scalar is not Quality.NONE:
                 d = result.distortion
-                values = d.angle_error.mean(axis=1) if quality == "angle" else d.quasi_conformal
+                values = d.angle_error.mean(axis=1) if scalar is Quality.ANGLE else d.quasi_conformal
                 values = values[: len(source.F)]  # caps come after
                 write_face_scalar(ms, source.mesh, values, np.isfinite(values))
     return numbers

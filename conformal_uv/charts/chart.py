@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..disk import DiskMap
-from ..errors import ConformalUVError, listed
+from ..errors import ConformalUVError, Remedy, listed
 from ..operators import Distortion, distortion
 from ..operators.orientation_sign import orientation_signs
 from .chart_meshes import ChartMesh
@@ -125,10 +126,29 @@ class Unwrapped:
     @property
     def summary(self) -> str:
         """How many charts were mapped, and why the others were not, in one line."""
-        failed = [(number, chart) for number, chart in enumerate(self.charts) if chart.map is None]
+        return self.told()
+
+    def told(self, words: Callable[[Remedy], str] | None = None) -> str:
+        """The same, remedies in the words of where it is shown; see `ConformalUVError.told`."""
+        failed = [(number, chart) for number, chart in enumerate(self.charts) if chart.error is not None]
         done = len(self.charts) - len(failed)
         text = f"mapped {done} of {len(self.charts)} chart{'s' * (len(self.charts) != 1)}"
-        reasons = [f"chart {number} (faces {listed(chart.faces)}): {chart.error}" for number, chart in failed]
+        reasons = [
+            f"chart {number} (faces {listed(chart.faces)}): {chart.error.told(words)}"
+            for number, chart in failed
+            if chart.error is not None
+        ]
         if len(reasons) > MOST_REASONS:
             reasons[MOST_REASONS:] = [f"and {len(failed) - MOST_REASONS} more"]
         return "; ".join([text, *reasons])
+
+    def failure(self, words: Callable[[Remedy], str] | None = None) -> ConformalUVError | None:
+        """One error for all charts where none was mapped, of their class where they have one; else None."""
+        errors = [chart.error for chart in self.charts if chart.error is not None]
+        if self.mapped.any() or not errors:
+            return None
+        if len(errors) == 1:
+            return errors[0]
+        kinds = {type(error) for error in errors}
+        kind = kinds.pop() if len(kinds) == 1 else ConformalUVError
+        return kind(self.told(words), [index for error in errors for index in error.indices])

@@ -2,37 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..disk import DiskMap, DiskMapper
-from ..errors import ConformalUVError, DegenerateFaceError, MeshError, SolverError, listed
+from ..errors import ConformalUVError, DegenerateFaceError, MeshError, Remedy, SolverError, listed
 from ..operators.wirtinger import planar_sides, signed_double_areas
+from ..options import DiskOptions, Laplacian
 from ..progress import Callback
 from .chart_meshes import ChartMesh
 from .vertex_options import ChartOptions, VertexOptions
 
-__all__ = ["ChartMapper", "ChartSolution", "MapOptions"]
-
-
-@dataclass(frozen=True)
-class MapOptions:
-    """Options of `DiskMapper.map` that are the same for all charts."""
-
-    method: str
-    objective: str | None
-    pin_mode: str | None
-    tolerance: float
-    relative_tolerance: float
-    max_iterations: int
-    repair: str
-
-    def keywords(self) -> dict[str, Any]:
-        """As keyword arguments."""
-        return dict(vars(self))
+__all__ = ["ChartMapper", "ChartSolution"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +50,7 @@ class ChartMapper:
         self._laplacian, self._backend = laplacian, backend
         self._mapper: DiskMapper | None = None
 
-    def solve(self, options: MapOptions, vertices: VertexOptions, callback: Callback | None) -> ChartSolution:
+    def solve(self, options: DiskOptions, vertices: VertexOptions, callback: Callback | None) -> ChartSolution:
         """Map the chart; what is wrong with the chart comes back as its error.
 
         Raises
@@ -81,20 +64,15 @@ class ChartMapper:
                 return _failed(self._told(error))
         return _failed(self._error)
 
-    def _solution(self, options: MapOptions, vertices: VertexOptions, callback: Callback | None) -> ChartSolution:
+    def _solution(self, options: DiskOptions, vertices: VertexOptions, callback: Callback | None) -> ChartSolution:
         mesh = self.mesh
         if self._mapper is None:
             self._mapper = DiskMapper(
                 mesh.V, mesh.solved, laplacian=self._laplacian, backend=self._backend, callback=callback
             )
         own: ChartOptions = vertices.of_chart(mesh.vertices, self._mapper.boundary)
-        found = self._mapper.map(
-            **options.keywords(),
-            pins=own.pins,
-            center=own.center,
-            boundary_vertex=own.boundary_vertex,
-            callback=callback,
-        )
+        anchors = replace(options, pins=own.pins, center=own.center, boundary_vertex=own.boundary_vertex)
+        found = self._mapper.solved(anchors, callback)
         z = np.ascontiguousarray(found.uv).view(np.complex128).reshape(-1)[: len(mesh.vertices)]
         signed = signed_double_areas(planar_sides(z, mesh.F.T.astype(np.int32)))
         return ChartSolution(found, None, own.notes, z, signed, own.used(mesh.vertices))
@@ -114,7 +92,8 @@ class ChartMapper:
         told = f"{len(faces)} faces have no area: faces {listed(faces)}."
         if len(error.indices) == len(self.mesh.solved):
             return DegenerateFaceError(f"{told} All their vertices lie on one line; there is nothing to map.", faces)
-        return DegenerateFaceError(f'{told} Pass laplacian="auto", or merge their coincident vertices.', faces)
+        ways = (Remedy("laplacian", Laplacian.AUTO), "merge their coincident vertices")
+        return DegenerateFaceError(told, faces, ways)
 
 
 def _failed(error: ConformalUVError) -> ChartSolution:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import TopologyError
+from ..errors import Remedy, TopologyError
+from ..options import Closed, Holes
 from .boundaries import Boundaries, boundaries, genera, without_digons
 from .cut_graph import OneChart, handle_cut, sphere_cut
 from .cut_surface import CutSurface
@@ -18,6 +19,8 @@ __all__ = ["made_disks"]
 
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
+
+CUT = Remedy("closed", Closed.CUT)
 
 
 def made_disks(split: Split, partner: Ints, mending: Mending) -> Split:
@@ -60,9 +63,9 @@ def _refuse_holes(split: Split, found: Boundaries, inner: Bools) -> None:
     def tell(own: Ints) -> TopologyError:
         told = ", ".join(f"{edges[i]} edges at vertex {first[i]}" for i in own[:8])
         return TopologyError(
-            f"The chart has {len(own)} boundary loops ({told}{', ...' if len(own) > 8 else ''}); a disk has one. "
-            'Fill the holes, mark a seam between them, or pass holes="fill".',
+            f"The chart has {len(own)} boundary loops ({told}{', ...' if len(own) > 8 else ''}); a disk has one.",
             first[own],
+            ("fill the holes", "mark a seam between them", Remedy("holes", Holes.FILL)),
         )
 
     split.faults.note(loops, found.chart_of_loop[loops], tell)
@@ -77,7 +80,7 @@ def _cut_to_disks(split: Split, mending: Mending) -> Split:
     wanting = np.flatnonzero(sound & (closed | (genus > 0)))
     if not len(wanting):
         return split
-    if mending.closed == "refuse":
+    if mending.closed is Closed.REFUSE:
         for number in wanting.tolist():
             split.faults[number] = _closed_error(bool(closed[number]), int(genus[number]))
         return split
@@ -97,11 +100,11 @@ def _cut_to_disks(split: Split, mending: Mending) -> Split:
 def _closed_error(closed: bool, genus: int) -> TopologyError:
     if closed and not genus:
         return TopologyError(
-            "The chart is closed, of genus 0: it has no boundary. Mark seams that cut it open, use sphere_map(), "
-            'or pass closed="cut".'
+            "The chart is closed, of genus 0: it has no boundary.",
+            ways=("mark seams that cut it open", Remedy("sphere_map"), CUT),
         )
     state = f"closed, of genus {genus}: it has no boundary" if closed else f"of genus {genus}; a disk has no handles"
-    return TopologyError(f'The chart is {state}. Mark seams that cut it open, or pass closed="cut".')
+    return TopologyError(f"The chart is {state}.", ways=("mark seams that cut it open", CUT))
 
 
 def _one_chart(surface: CutSurface, one: Ints, other: Ints, rim: Ints) -> OneChart:

@@ -17,16 +17,20 @@ from ..errors import (
     DuplicateFaceError,
     NonFiniteError,
     NonManifoldError,
+    Remedy,
     listed,
 )
 from ..mesh.fans import corner_links, pinched_vertices
 from ..mesh.halfedges import joined_pairs
+from ..options import NonManifold
 from .seaming import SeamedMesh, crowded_pairs
 
 __all__ = ["Faults", "by_chart", "note_crowded_edges", "note_pinched_vertices", "note_unusable_polygons"]
 
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
+
+CUT = Remedy("nonmanifold", NonManifold.CUT)
 
 
 class Faults(dict[int, ConformalUVError]):
@@ -85,8 +89,9 @@ def note_crowded_edges(faults: Faults, seamed: SeamedMesh, chart: Ints, name: In
         faces = np.unique(name[seamed.sides.polygon[own]])
         return NonManifoldError(
             f"{len(keys)} edges have three or more faces: edges {places}{' ...' if len(keys) > 8 else ''} of faces "
-            f'{listed(faces)}. Remove the extra faces, mark the edges as seams, or pass nonmanifold="cut".',
+            f"{listed(faces)}.",
             faces,
+            ("remove the extra faces", "mark the edges as seams", CUT),
         )
 
     faults.note(sides, chart[seamed.sides.polygon[sides]], tell)
@@ -109,8 +114,9 @@ def note_pinched_vertices(faults: Faults, seamed: SeamedMesh, elsewhere: Bools, 
         vertices, faces = np.unique(corners[own]), np.unique(name[polygon[own]])
         return NonManifoldError(
             f"{len(vertices)} vertices join parts of the surface that touch only there: vertices {listed(vertices)} "
-            f'of faces {listed(faces)}. Give each part a vertex of its own, or pass nonmanifold="cut".',
+            f"of faces {listed(faces)}.",
             faces,
+            ("give each part a vertex of its own", CUT),
         )
 
     faults.note(bad, chart[polygon[bad]], tell)

@@ -7,14 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import OptionError
+from ..options import Place
 from .packing import kept_margin, pack_disks
 
-__all__ = ["PLACES", "Placement", "check_place", "placements"]
+__all__ = ["Placement", "placements"]
 
 Real = NDArray[np.float64]
 
-PLACES = ("fit", "pack", "disk")
 PACKED_MARGIN = 0.005  # between packed disks where no margin is asked for
 LEAST_FILL = 1e-3  # an image that fills less of its disk than this counts as filling that much
 
@@ -27,15 +26,7 @@ class Placement:
     scale: float = 1.0
 
 
-def check_place(place: str, margin: float | None) -> None:
-    """Raise OptionError on a place that is not known or a margin that leaves no room."""
-    if place not in PLACES:
-        raise OptionError(f"place is {place!r}; choose {', '.join(PLACES)}.")
-    if margin is not None and not 0.0 <= margin < 0.5:
-        raise OptionError(f"margin is {margin}; pass a part of the unit square's side, at least 0 and below 0.5.")
-
-
-def placements(place: str, margin: float | None, area: Real, image_area: Real) -> list[Placement]:
+def placements(place: Place, margin: float | None, area: Real, image_area: Real) -> list[Placement]:
     """A placement for each mapped chart.
 
     Parameters
@@ -46,7 +37,7 @@ def placements(place: str, margin: float | None, area: Real, image_area: Real) -
         Of its image in the unit disk. When charts are packed, scales are such that the ratio of the image's area
         to the surface's is the same for all.
     """
-    if place == "disk" or not len(area):
+    if place is Place.DISK or not len(area):
         return [Placement()] * len(area)
     if len(area) == 1:
         return [Placement((0.5, 0.5), 0.5 - (margin or 0.0))]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..operators import face_areas
+from ..options import Place
 from .chart import Chart, Unwrapped
 from .placement import placements
 
@@ -44,7 +45,7 @@ def pack_together(
     area = np.array([face_areas(chart.mesh.V, chart.F).sum() for _, chart in charts])
     largest = float(area.max(initial=0.0))
     image = np.array([_image_area(chart) for _, chart in charts])
-    placed = placements("fit", margin, area / largest if largest > 0.0 else area, image)
+    placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, image)
     out = [result.uv.copy() for result in results]
     for (number, chart), place in zip(charts, placed, strict=True):
         own = np.unique(chart.corners)

@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..disk import DiskMapper
-from ..disk.options import DiskOptions, real_number
+from ..linear.backends import choose_backend
+from ..options import Closed, DiskOptions, Holes, Laplacian, NonManifold, Orientation, Place, PlaceOptions
 from ..progress import Callback
 from .arguments import Polygons, polygon_mesh, seam_pairs, selected_polygons, used_vertices, vertex_list
 from .chart import Chart, Unwrapped
-from .chart_mapper import ChartMapper, ChartSolution, MapOptions
+from .chart_mapper import ChartMapper, ChartSolution
 from .chart_meshes import ChartMesh, chart_meshes
 from .chart_progress import PLACING, SPLITTING, ChartProgress
 from .mending import Mending
-from .placement import Placement, check_place, placements
+from .placement import Placement, placements
 from .splitting import split_into_charts
 from .vertex_options import VertexOptions
 
@@ -52,51 +52,44 @@ class Unwrapper:
         callback: Callback | None = None,
     ) -> None:
         ChartProgress(callback).report("charts", 0.0)
-        self._sample = DiskMapper(np.eye(3), [[0, 1, 2]], laplacian=laplacian, backend=backend)
+        kind = Laplacian.of("laplacian", laplacian)
+        choose_backend(backend)  # complains of what is not there before any work
         mesh, finite = polygon_mesh(V, polygons)
         selected = selected_polygons(selection, mesh)
         self._corners, self._faces = len(mesh.corners), len(mesh.sizes)
         self._used = used_vertices(mesh, selected)
-        mending = Mending.checked(
-            self._used,
-            holes=holes,
-            closed=closed,
-            nonmanifold=nonmanifold,
-            orientation=orientation,
-            outer_loop=outer_loop,
+        mending = Mending(
+            holes=Holes.of("holes", holes),
+            closed=Closed.of("closed", closed),
+            nonmanifold=NonManifold.of("nonmanifold", nonmanifold),
+            orientation=Orientation.of("orientation", orientation),
+            outer_loop=vertex_list("outer_loop", outer_loop, self._used),
         )
         split = self._split = split_into_charts(mesh, finite, selected, seam_pairs(seams), mending)
         self._meshes = chart_meshes(split.mesh, split.surface, split.count)
-        # pass laplacian and repair on: laplacian goes to each DiskMapper here, repair with MapOptions in unwrap
         self._mappers = [
-            ChartMapper(self._meshes[number], selected, split.faults.get(number), laplacian, backend)
+            ChartMapper(self._meshes[number], selected, split.faults.get(number), kind, backend)
             for number in range(split.count)
         ]
 
     def unwrap(
         self,
         *,
-        method: str = "newton",
-        objective: str | None = None,
         pins: Vertices = None,
-        pin_mode: str | None = None,
         center: Vertices = None,
         boundary_vertex: Vertices = None,
-        rotation: float = 0.0,
-        tolerance: float = 1e-10,
-        relative_tolerance: float = 0.0,
-        max_iterations: int = 50,
-        repair: str = "auto",
         place: str = "fit",
         margin: float | None = None,
+        rotation: float = 0.0,
         callback: Callback | None = None,
+        **options: Any,
     ) -> Unwrapped:
-        """Map all charts with the given options; see `unwrap`. Factorizations are used again."""
-        turn = real_number("rotation", rotation, "radians")
-        margin = None if margin is None else real_number("margin", margin, "a part of the square's side")
-        check_place(place, margin)
-        options = MapOptions(method, objective, pin_mode, tolerance, relative_tolerance, max_iterations, repair)
-        self._check(options)
+        """Map all charts with the given options, those of `disk_map` among them; see `unwrap`.
+
+        Factorizations are used again.
+        """
+        where = PlaceOptions(place=Place.of("place", place), margin=margin, rotation=rotation)
+        how = DiskOptions(**options)
         vertices = VertexOptions(
             vertex_list("center", center, self._used),
             vertex_list("boundary_vertex", boundary_vertex, self._used),
@@ -108,23 +101,12 @@ class Unwrapper:
         solutions = []
         for number, mapper in enumerate(self._mappers):
             progress.start(number)
-            solutions.append(mapper.solve(options, vertices, progress if progress.wanted else None))
+            solutions.append(mapper.solve(how, vertices, progress if progress.wanted else None))
         self._check_used(vertices, solutions, offered=isinstance(pins, set | frozenset))
         progress.report("packing", PLACING)
-        result = self._assembled(solutions, place, margin, turn)
+        result = self._assembled(solutions, where)
         progress.report("packing", 1.0)
         return result
-
-    def _check(self, options: MapOptions) -> None:
-        """Raise OptionError on values that no chart would take, before any chart is mapped."""
-        DiskOptions.checked(
-            self._sample.surface,
-            self._sample.boundary,
-            **options.keywords(),
-            pins=None,
-            center=None,
-            boundary_vertex=None,
-        )
 
     def _check_used(self, vertices: VertexOptions, solutions: list[ChartSolution], *, offered: bool) -> None:
         """Raise OptionError on a center, boundary vertex or pin that no chart could use; pins may be only `offered`."""
@@ -143,19 +125,17 @@ class Unwrapper:
             np.concatenate([np.empty(0, dtype=np.int64), *excused]),
         )
 
-    def _assembled(
-        self, solutions: list[ChartSolution], place: str, margin: float | None, rotation: float
-    ) -> Unwrapped:
+    def _assembled(self, solutions: list[ChartSolution], where: PlaceOptions) -> Unwrapped:
         """Place the disks and gather the corners' coordinates."""
         mapped = np.array([solution.map is not None for solution in solutions])
         image_area = np.array([0.5 * np.abs(solution.signed).sum() for solution in solutions])
-        found = iter(placements(place, margin, self._meshes.area[mapped], image_area[mapped]))
+        found = iter(placements(where.place, where.margin, self._meshes.area[mapped], image_area[mapped]))
         placed = [next(found) if done else Placement() for done in mapped.tolist()]
         surface, split = self._split.surface, self._split
         z: NDArray[np.complex128] = np.zeros(len(surface.vertex_of_site), dtype=np.complex128)
         for number in np.flatnonzero(mapped).tolist():
             own = slice(self._meshes.first_vertex[number], self._meshes.first_virtual[number])
-            z[self._meshes.site[own]] = _laid(solutions[number].z, placed[number], rotation)
+            z[self._meshes.site[own]] = _laid(solutions[number].z, placed[number], where.rotation)
         uv = np.zeros((self._corners, 2))
         uv[split.corner] = z[surface.site[: len(split.corner)]].view(np.float64).reshape(-1, 2)
         chart_of_face = np.full(self._faces, -1, dtype=np.int64)

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
-from ..errors import ConformalUVError, OrientationError, listed
+from ..errors import ConformalUVError, OrientationError, Remedy, listed
 from ..mesh.polygon_sides import PolygonSides
 from ..mesh.polygons import PolygonMesh
+from ..options import Orientation
 from .faults import Faults
 from .seaming import SeamedMesh
 
@@ -20,22 +21,24 @@ __all__ = ["note_orientation", "turned", "untwisted"]
 Ints = NDArray[np.int64]
 Signs = NDArray[np.int8]
 
+MEND = Remedy("orientation", Orientation.MEND)
+
 
 def note_orientation(faults: Faults, sign: Signs, chart: Ints, name: Ints) -> None:
     """Charts with polygons wound against the rest, or with one side only."""
 
     def against(own: Ints) -> ConformalUVError:
         return OrientationError(
-            f"{len(own)} faces are wound against their neighbours: faces {listed(own)}. "
-            'Flip their normals, or pass orientation="mend".',
+            f"{len(own)} faces are wound against their neighbours: faces {listed(own)}.",
             own,
+            ("flip their normals", MEND),
         )
 
     def one_sided(own: Ints) -> ConformalUVError:
         return OrientationError(
-            f"The surface has only one side, like a Moebius band ({len(own)} faces: {listed(own)}). "
-            'Mark a seam across the band, or pass orientation="mend".',
+            f"The surface has only one side, like a Moebius band ({len(own)} faces: {listed(own)}).",
             own,
+            ("mark a seam across the band", MEND),
         )
 
     for value, tell in ((0, one_sided), (-1, against)):

@@ -10,7 +10,7 @@ from typing import Annotated, ParamSpec
 import typer
 
 from .._version import __version__
-from ..errors import ConformalUVError
+from ..errors import ConformalUVError, Remedy
 from ..interrupt import interruptible
 from .disk import disk
 from .report import report
@@ -39,7 +39,7 @@ def _told(command: Callable[P, None]) -> Callable[P, None]:
         try:
             command(*args, **kwargs)
         except ConformalUVError as error:
-            message = " ".join(str(error).split())
+            message = " ".join(error.told(Remedy.as_flag).split())
             typer.echo(plain(f"{type(error).__name__}: {message}"), err=True)
             raise typer.Exit(1) from error
         except BrokenPipeError:  # whoever read standard output has had enough

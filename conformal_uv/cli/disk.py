@@ -9,9 +9,21 @@ import numpy as np
 import typer
 
 from ..charts import Unwrapped, unwrap
-from ..errors import ConformalUVError
+from ..errors import Remedy
 from ..files import read_mesh, write_mesh
-from . import choices
+from ..options import (
+    Backend,
+    Closed,
+    Holes,
+    Laplacian,
+    Method,
+    NonManifold,
+    Objective,
+    Orientation,
+    PinMode,
+    Place,
+    Repair,
+)
 from .figure import draw_unwrapped
 from .numbers import three_numbers
 from .outputs import Outputs
@@ -26,13 +38,13 @@ __all__ = ["disk"]
 def disk(
     source: Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL, NPZ, GLB ...; - is stdin.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="Mesh with UVs: OBJ, PLY or NPZ; - is stdout.")],
-    method: Annotated[choices.Method, typer.Option(help="How the map is found.")] = choices.Method.NEWTON,
-    objective: Annotated[choices.Objective | None, typer.Option(help="Energy to be minimised.")] = None,
+    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.NEWTON,
+    objective: Annotated[Objective | None, typer.Option(help="Energy to be minimised.")] = None,
     pins: Annotated[
         str | None,
         typer.Option(metavar="A,B,C", help="Boundary vertices (from 0) sent to 1, w, w^2 with w = exp(2 pi i / 3)."),
     ] = None,
-    pin_mode: Annotated[choices.PinMode | None, typer.Option(help="How the pins are reached.")] = None,
+    pin_mode: Annotated[PinMode | None, typer.Option(help="How the pins are reached.")] = None,
     center: Annotated[int | None, typer.Option(metavar="V", help="Vertex (from 0) sent to the centre.")] = None,
     boundary_vertex: Annotated[
         int | None, typer.Option(metavar="V", help="Boundary vertex (from 0) sent to angle 0.")
@@ -41,18 +53,18 @@ def disk(
         str | None,
         typer.Option(metavar="FILE|uv", help="Edges to cut along: lines of two vertices, or where UVs are torn."),
     ] = None,
-    holes: Annotated[choices.Holes, typer.Option(help="Boundary loops but the longest.")] = choices.Holes.FILL,
-    closed: Annotated[choices.Closed, typer.Option(help="Closed pieces and handles.")] = choices.Closed.REFUSE,
+    holes: Annotated[Holes, typer.Option(help="Boundary loops but the longest.")] = Holes.FILL,
+    closed: Annotated[Closed, typer.Option(help="Closed pieces and handles.")] = Closed.REFUSE,
     nonmanifold: Annotated[
-        choices.NonManifold, typer.Option(help="Edges of three faces, pieces that touch in a vertex.")
-    ] = choices.NonManifold.REFUSE,
+        NonManifold, typer.Option(help="Edges of three faces, pieces that touch in a vertex.")
+    ] = NonManifold.REFUSE,
     orientation: Annotated[
-        choices.Orientation, typer.Option(help="Faces wound against their neighbours.")
-    ] = choices.Orientation.REFUSE,
-    laplacian: Annotated[choices.Laplacian, typer.Option(help="Weights.")] = choices.Laplacian.AUTO,
-    repair: Annotated[choices.Repair, typer.Option(help="Folded triangles.")] = choices.Repair.AUTO,
-    place: Annotated[choices.Place, typer.Option(help="Placing in the unit square.")] = choices.Place.FIT,
-    backend: Annotated[choices.Backend, typer.Option(help="Factorization library.")] = choices.Backend.AUTO,
+        Orientation, typer.Option(help="Faces wound against their neighbours.")
+    ] = Orientation.REFUSE,
+    laplacian: Annotated[Laplacian, typer.Option(help="Weights.")] = Laplacian.AUTO,
+    repair: Annotated[Repair, typer.Option(help="Folded triangles.")] = Repair.AUTO,
+    place: Annotated[Place, typer.Option(help="Placing in the unit square.")] = Place.FIT,
+    backend: Annotated[Backend, typer.Option(help="Factorization library.")] = Backend.AUTO,
     split: Annotated[
         bool, typer.Option("--split", help="Write vertices split at seams, for programs that know one UV a vertex.")
     ] = False,
@@ -80,24 +92,25 @@ def disk(
             None,
             mesh_file.mesh,
             seams=read_seams(seams, mesh_file),
-            method=method.value,
-            objective=objective.value if objective else None,
+            method=method,
+            objective=objective if objective else None,
             pins=pinned,
-            pin_mode=pin_mode.value if pin_mode else None,
+            pin_mode=pin_mode if pin_mode else None,
             center=center,
             boundary_vertex=boundary_vertex,
-            holes=holes.value,
-            closed=closed.value,
-            nonmanifold=nonmanifold.value,
-            orientation=orientation.value,
-            laplacian=laplacian.value,
-            repair=repair.value,
-            backend=backend.value,
-            place=place.value,
+            holes=holes,
+            closed=closed,
+            nonmanifold=nonmanifold,
+            orientation=orientation,
+            laplacian=laplacian,
+            repair=repair,
+            backend=backend,
+            place=place,
             callback=stages,
         )
-        if not result.mapped.any():
-            raise _reason(result)
+        failure = result.failure(Remedy.as_flag)
+        if failure is not None:
+            raise failure
         stages("distortion", 0.0)
         summary = unwrapped_summary(result, str(source), str(target), stages.seconds)
         corner_uv = _corner_uv(result, mesh_file.mesh.sizes)
@@ -110,7 +123,7 @@ def disk(
     if not quiet:
         print_summary(summary, stderr=outputs.on_stdout)
     if not result.mapped[result.chart_of_face >= 0].all():
-        typer.echo(plain(result.summary), err=True)
+        typer.echo(plain(result.told(Remedy.as_flag)), err=True)
         raise typer.Exit(1)
 
 
@@ -119,13 +132,3 @@ def _corner_uv(result: Unwrapped, sizes: np.ndarray) -> np.ndarray:
     uv = result.uv.copy()
     uv[~np.repeat(result.mapped, sizes)] = np.nan
     return uv
-
-
-def _reason(result: Unwrapped) -> ConformalUVError:
-    """What to say when no chart could be mapped."""
-    errors = [chart.error for chart in result.charts if chart.error is not None]
-    if len(errors) == 1:
-        return errors[0]
-    kinds = {type(error) for error in errors}
-    kind = kinds.pop() if len(kinds) == 1 else ConformalUVError
-    return kind(result.summary, [index for error in errors for index in error.indices])

@@ -14,9 +14,9 @@ from .._version import __version__
 from ..files import MeshFile, read_mesh, write_mesh
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangulate import triangulate
+from ..options import Backend, Laplacian, Method, Normalization, Repair, Rotation, SphereBoundary, SphereLayout
 from ..sphere import SphereMap, sphere_map
 from ..sphere.layout import equirectangular, octahedral
-from . import choices
 from .figure import draw_sphere_map
 from .numbers import three_numbers
 from .outputs import Outputs
@@ -29,22 +29,22 @@ __all__ = ["sphere"]
 def sphere(
     source: Annotated[Path, typer.Argument(metavar="IN", help="Closed mesh: OBJ, PLY, OFF, STL or NPZ.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="Mesh on the unit sphere: OBJ, PLY or NPZ.")],
-    method: Annotated[choices.SphereMethod, typer.Option(help="How the map is found.")] = choices.SphereMethod.NEWTON,
+    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.NEWTON,
     normalization: Annotated[
-        choices.Normalization, typer.Option(help="What is brought to the middle of the ball.")
-    ] = choices.Normalization.AREA,
-    rotation: Annotated[choices.Rotation, typer.Option(help="How the sphere is turned.")] = choices.Rotation.PRINCIPAL,
+        Normalization, typer.Option(help="What is brought to the middle of the ball.")
+    ] = Normalization.AREA,
+    rotation: Annotated[Rotation, typer.Option(help="How the sphere is turned.")] = Rotation.PRINCIPAL,
     landmarks: Annotated[
         str | None,
         typer.Option(metavar="A,B,C", help="Vertices (from 0) sent to the south pole, (1, 0, 0) and the north pole."),
     ] = None,
     boundary: Annotated[
-        choices.SphereBoundary, typer.Option(help="Boundary loops; a cap is virtual.")
-    ] = choices.SphereBoundary.REFUSE,
-    laplacian: Annotated[choices.Laplacian, typer.Option(help="Weights.")] = choices.Laplacian.AUTO,
-    repair: Annotated[choices.Repair, typer.Option(help="Inverted triangles.")] = choices.Repair.AUTO,
-    backend: Annotated[choices.Backend, typer.Option(help="Factorization library.")] = choices.Backend.AUTO,
-    uv: Annotated[choices.SphereLayout, typer.Option(help="UVs to write.")] = choices.SphereLayout.NONE,
+        SphereBoundary, typer.Option(help="Boundary loops; a cap is virtual.")
+    ] = SphereBoundary.REFUSE,
+    laplacian: Annotated[Laplacian, typer.Option(help="Weights.")] = Laplacian.AUTO,
+    repair: Annotated[Repair, typer.Option(help="Inverted triangles.")] = Repair.AUTO,
+    backend: Annotated[Backend, typer.Option(help="Factorization library.")] = Backend.AUTO,
+    uv: Annotated[SphereLayout, typer.Option(help="UVs to write.")] = SphereLayout.NONE,
     split: Annotated[
         bool, typer.Option("--split", help="Write vertices split at the seams of the UVs.")
     ] = False,
@@ -71,14 +71,14 @@ def sphere(
         result = sphere_map(
             V,
             F,
-            method=method.value,
-            normalization=normalization.value,
-            rotation=rotation.value,
+            method=method,
+            normalization=normalization,
+            rotation=rotation,
             landmarks=marks,
-            boundary=boundary.value,
-            laplacian=laplacian.value,
-            repair=repair.value,
-            backend=backend.value,
+            boundary=boundary,
+            laplacian=laplacian,
+            repair=repair,
+            backend=backend,
             callback=stages,
         )
         stages("distortion", 0.0)
@@ -109,10 +109,10 @@ def _on_all(xyz: NDArray[np.float64], mesh: PolygonMesh) -> NDArray[np.float64]:
     return V
 
 
-def _layout(uv: choices.SphereLayout, image: PolygonMesh) -> NDArray[np.float64]:
-    if uv is choices.SphereLayout.NONE:
+def _layout(uv: SphereLayout, image: PolygonMesh) -> NDArray[np.float64]:
+    if uv is SphereLayout.NONE:
         return np.full((len(image.corners), 2), np.nan)
-    return (equirectangular if uv is choices.SphereLayout.EQUIRECTANGULAR else octahedral)(image.V, image)
+    return (equirectangular if uv is SphereLayout.EQUIRECTANGULAR else octahedral)(image.V, image)
 
 
 def _summary(result: SphereMap, source: str, target: str, seconds: dict[str, float]) -> dict[str, Any]:

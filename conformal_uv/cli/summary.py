@@ -12,6 +12,7 @@ from rich.table import Table
 from .._version import __version__
 from ..charts import Chart, Unwrapped
 from ..disk import DiskMap
+from ..errors import Remedy
 from ..operators import Distortion
 from .terminal import plain
 
@@ -42,7 +43,7 @@ def unwrapped_summary(result: Unwrapped, source: str, target: str, seconds: dict
         "conformal_uv": __version__,
         "input": source,
         "output": target,
-        "summary": result.summary,
+        "summary": result.told(Remedy.as_flag),
         "mesh": {
             "triangles": sum(len(chart.F) for chart in result.charts),
             "vertices": len(np.unique(np.concatenate([chart.vertices for chart in result.charts]))),
@@ -69,8 +70,9 @@ def _chart_summary(number: int, chart: Chart, lost_to_float32: int) -> dict[str,
         "status": chart.status,
         "notes": chart.notes,
     }
-    if chart.map is None or chart.distortion is None:
-        return {**told, "error": f"{type(chart.error).__name__}: {chart.error}"}
+    if chart.error is not None:
+        return {**told, "error": f"{type(chart.error).__name__}: {chart.error.told(Remedy.as_flag)}"}
+    assert chart.map is not None and chart.distortion is not None
     told.update(_map_summary(chart.map), lost_to_float32=lost_to_float32)
     return {**told, **distortion_summary([chart.distortion])}
 

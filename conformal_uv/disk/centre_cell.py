@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
+from ..options import DiskOptions
 from ..progress import Progress
 from .boundary_energy import BoundaryEnergy
 from .gauge import TurnGauge
 from .harmonic_measure import CentredMeasure
 from .newton import NewtonResult, minimise_boundary_energy
-from .options import DiskOptions
 
 __all__ = ["release_centre"]
 

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import OptionError
 from ..linear.backends import choose_backend
 from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
-from ..operators.edge_laplacian import LAPLACIANS, edge_laplacian
+from ..operators.edge_laplacian import edge_laplacian
 from ..operators.orientation_sign import flipped_faces
+from ..options import DiskOptions, Laplacian, Method, Objective, Repair
 from ..progress import Callback, Progress
+from .anchors import anchored
 from .harmonic_measure import CentredMeasure, centred_measure
-from .options import DiskOptions
 from .placement import inside_disk, place_center, place_pins
 from .repair import recentred, repair_cost, repaired
 from .result import DiskMap, disk_map_result
@@ -51,61 +51,36 @@ class DiskMapper:
         backend: str = "auto",
         callback: Callback | None = None,
     ) -> None:
-        if laplacian not in LAPLACIANS:
-            raise OptionError(f"laplacian is {laplacian!r}; choose {', '.join(LAPLACIANS)}.")
+        self._laplacian = Laplacian.of("laplacian", laplacian)
         self.backend = choose_backend(backend)
         self._backend = backend
-        self._laplacian = laplacian
         Progress(callback)("checks", 0.0)
         self.surface = Surface.from_arrays(V, F)
         self.boundary = self.surface.require_disk()
         self.surface.require_extent()
-        self._factorized: dict[str, tuple[DirichletProblem, CentredMeasure]] = {}
+        self._factorized: dict[Laplacian, tuple[DirichletProblem, CentredMeasure]] = {}
         self._solved: tuple[tuple[object, ...], Solution] | None = None
 
-    def map(
-        self,
-        *,
-        method: str = "newton",
-        objective: str | None = None,
-        pins: Sequence[int] | None = None,
-        pin_mode: str | None = None,
-        center: int | None = None,
-        boundary_vertex: int | None = None,
-        tolerance: float = 1e-10,
-        relative_tolerance: float = 0.0,
-        max_iterations: int = 50,
-        repair: str = "auto",
-        callback: Callback | None = None,
-    ) -> DiskMap:
+    def map(self, *, callback: Callback | None = None, **options: Any) -> DiskMap:
         """The map with the given options; see `disk_map`.
 
         The last solution is kept: another center, boundary vertex or pins only place it anew by a Moebius map.
         """
-        options = DiskOptions.checked(
-            self.surface,
-            self.boundary,
-            method=method,
-            objective=objective,
-            pins=pins,
-            pin_mode=pin_mode,
-            center=center,
-            boundary_vertex=boundary_vertex,
-            tolerance=tolerance,
-            relative_tolerance=relative_tolerance,
-            max_iterations=max_iterations,
-            repair=repair,
-        )
+        return self.solved(DiskOptions(**options), callback)
+
+    def solved(self, options: DiskOptions, callback: Callback | None = None) -> DiskMap:
+        """The same, the options in one object."""
+        options = anchored(options, self.surface.n, self.boundary)
         progress = Progress(callback)
         if self._solved is None or self._solved[0] != options.solution_key:
             self._solved = options.solution_key, self._solve(options, progress)
         solution = self._solved[1]
         if not solution.converged:
-            log.warning("%s stopped before its tolerance, after %d rows", method, len(solution.history))
+            log.warning("%s stopped before its tolerance, after %d rows", options.method, len(solution.history))
         progress("placement", 0.0)
         z, flipped, center = self._placed(solution, options)
         cost = None
-        if len(flipped) and options.repair == "auto" and options.method != "augmented-lagrangian":
+        if len(flipped) and options.repair is Repair.AUTO and options.method is not Method.AUGMENTED_LAGRANGIAN:
             corners, folded, before = self.surface.corners, z, flipped
             z = repaired(self.surface, z, flipped, self.boundary, progress)
             if z is not folded:
@@ -120,10 +95,10 @@ class DiskMapper:
         return result
 
     def _solve(self, options: DiskOptions, progress: Progress) -> Solution:
-        if options.method == "augmented-lagrangian":
+        if options.method is Method.AUGMENTED_LAGRANGIAN:
             return solve_augmented_lagrangian(self.surface, self.boundary, options, self._backend, progress)
         problem, measure = self._problem(options, progress)
-        if options.method == "linear":
+        if options.method is Method.LINEAR:
             return solve_linear(problem, measure)
         return solve_newton(self.surface, problem, measure, options, progress)
 
@@ -133,8 +108,8 @@ class DiskMapper:
         The Dirichlet objective is the report's problem, stated with the mesh's own cotangents; "auto" keeps them.
         """
         kind = self._laplacian
-        if kind == "auto" and options.objective == "dirichlet" and not len(self.surface.degenerate):
-            kind = "cotan"
+        if kind is Laplacian.AUTO and options.objective is Objective.DIRICHLET and not len(self.surface.degenerate):
+            kind = Laplacian.COTAN
         if kind not in self._factorized:
             surface = self.surface
             progress("assembly", 0.0)

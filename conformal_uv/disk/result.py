@@ -13,7 +13,7 @@ from ..operators.distortion import Distortion, distortion_of
 from ..operators.orientation_sign import orientation_signs
 from ..operators.wirtinger import conformal_energy, enclosed_area
 from ..optimize import AugmentedLagrangianStep, NewtonStep
-from .options import DiskOptions
+from ..options import DiskOptions
 from .repair import Repair, unresolved_faces
 from .solution import Solution
 
@@ -130,7 +130,7 @@ def disk_map_result(
         history=solution.history,
         repair=repair,
         method=options.method,
-        objective=options.objective,
+        objective=str(options.objective),
         laplacian="cotan" if solution.problem is None else solution.problem.laplacian.kind,
         center=center,
         pins=options.pins,

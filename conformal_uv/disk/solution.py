@@ -13,13 +13,13 @@ from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import uniform_edges
 from ..operators.laplacian import cotangent_weights, laplacian_matrix
 from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
+from ..options import DiskOptions
 from ..progress import Progress
 from .augmented_lagrangian import area_hessian, circle_problem
 from .centre_cell import release_centre
 from .gauge import CentreGauge, PinGauge
 from .harmonic_measure import CentredMeasure
 from .newton import NewtonResult, minimise_boundary_energy
-from .options import DiskOptions
 from .placement import CUBE_ROOTS, place_pins
 
 __all__ = ["Solution", "solve_augmented_lagrangian", "solve_linear", "solve_newton"]

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import MissingDependencyError, OptionError
+from ..options import Backend
 from ..progress import Progress
 from .cholesky import Cholmod, SuperLU
 from .linear_system import LinearSolver, LowerTriangle
@@ -22,7 +23,7 @@ from .multigrid import Multigrid, require_pyamg
 
 __all__ = ["BACKENDS", "choose_backend", "linear_solver"]
 
-BACKENDS = ("cholmod", "superlu", "multigrid")
+BACKENDS = tuple(kind.value for kind in Backend if kind is not Backend.AUTO)
 ENVIRONMENT_VARIABLE = "CONFORMAL_UV_BACKEND"
 log = logging.getLogger(__name__)
 

@@ -198,8 +198,8 @@ class Surface:
         if on_one_line(self.V):
             faces = np.arange(self.m)
             raise DegenerateFaceError(
-                f"All {self.n} vertices lie on one line or in one point: none of the faces {listed(faces)} has an "
-                "area. Give the vertices other positions, or remove the piece.",
+                f"{self.m} faces have no area: faces {listed(faces)}. All vertices lie on one line or in one point; "
+                "give them other positions, or remove the piece.",
                 faces,
             )
 

@@ -7,17 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import OptionError
 from ..mesh.geometry import TriangleGeometry
 from ..mesh.halfedges import HalfEdges, sorted_pairs
 from ..mesh.manifold import check_areas
+from ..options import Laplacian
 from .intrinsic_delaunay import IntrinsicTriangulation, intrinsic_delaunay
 from .laplacian import cotangent_weights
 from .mollification import mollified
 
-__all__ = ["LAPLACIANS", "EdgeLaplacian", "cotan_edges", "edge_laplacian", "intrinsic_delaunay_edges", "uniform_edges"]
+__all__ = ["EdgeLaplacian", "cotan_edges", "edge_laplacian", "intrinsic_delaunay_edges", "uniform_edges"]
 
-LAPLACIANS = ("auto", "cotan", "intrinsic-delaunay")
 LEAST = 1e-12  # weight around a vertex that would have none
 ROUNDING = 1e-14  # a weight above minus this is 0 to rounding: the four vertices lie on a circle
 
@@ -63,12 +62,11 @@ def edge_laplacian(
     DegenerateFaceError
         "cotan" on faces without area.
     """
-    if kind not in LAPLACIANS:
-        raise OptionError(f"laplacian is {kind!r}; choose {', '.join(LAPLACIANS)}.")
-    if kind == "cotan":
+    kind = Laplacian.of("laplacian", kind)
+    if kind is Laplacian.COTAN:
         check_areas(geometry)
         return cotan_edges(edges, geometry)
-    if kind == "auto" and not len(geometry.degenerate):
+    if kind is Laplacian.AUTO and not len(geometry.degenerate):
         plain = cotan_edges(edges, geometry)
         if not (plain.weights[edges.count == 2] < -ROUNDING).any():
             return plain

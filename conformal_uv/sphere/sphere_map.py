@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
-from operator import index
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..disk.options import checked_limits
 from ..errors import DisconnectedError, OptionError, TopologyError
 from ..linear.backends import choose_backend
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
 from ..operators.dirichlet import DirichletProblem
-from ..operators.edge_laplacian import LAPLACIANS, EdgeLaplacian, edge_laplacian
+from ..operators.edge_laplacian import EdgeLaplacian, edge_laplacian
 from ..operators.orientation_sign import inverted_faces, outward_signs
 from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
+from ..options import Laplacian, Method, Normalization, Repair, Rotation, SphereBoundary, SphereOptions
 from ..progress import Callback, Progress
 from .augmented_lagrangian import SphereProblem
 from .centring import centred, landmark_aligned, principal_rotation, surface_rotation, unit
@@ -32,16 +31,6 @@ __all__ = ["sphere_map"]
 
 Real = NDArray[np.float64]
 log = logging.getLogger(__name__)
-
-CHOICES = {
-    "method": ("newton", "linear", "augmented-lagrangian"),
-    "boundary": ("refuse", "cap"),
-    "normalization": ("area", "centre", "none"),
-    "rotation": ("principal", "surface", "none"),
-    "laplacian": LAPLACIANS,
-    "repair": ("auto", "never"),
-}
-
 
 def sphere_map(
     V: ArrayLike,
@@ -99,55 +88,52 @@ def sphere_map(
     CancelledError
         The callback returned False.
     """
-    given = dict(
-        method=method,
-        normalization=normalization,
-        rotation=rotation,
-        boundary=boundary,
-        laplacian=laplacian,
-        repair=repair,
+    options = SphereOptions(
+        method=Method.of("method", method),
+        normalization=Normalization.of("normalization", normalization),
+        rotation=Rotation.of("rotation", rotation),
+        landmarks=landmarks,  # type: ignore[arg-type]
+        boundary=SphereBoundary.of("boundary", boundary),
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        laplacian=Laplacian.of("laplacian", laplacian),
+        repair=Repair.of("repair", repair),
     )
-    for name, value in given.items():
-        if not isinstance(value, str) or value not in CHOICES[name]:
-            raise OptionError(f"{name} is {value!r}; choose {', '.join(CHOICES[name])}.")
-    tolerance, _, max_iterations = checked_limits(tolerance, max_iterations)
     choose_backend(backend)  # complains of what is not there before any work
     progress = Progress(callback)
     progress("checks", 0.0)
     surface = Surface.from_arrays(V, F)
     n, m = surface.n, surface.m
-    if boundary == "cap" and surface.loops:
+    if options.boundary is SphereBoundary.CAP and surface.loops:
         surface = surface.capped()
     _require_sphere(surface)
     surface.require_extent()
-    marks = _landmarks(landmarks, n)
+    _check_landmarks(options.landmarks, n)
     mass = lumped_areas(surface.geometry, surface.corners, surface.n)
     mass = mass / mass.sum() if mass.sum() > 0.0 else np.full(surface.n, 1.0 / surface.n)
-    edges = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, laplacian)
-    x = centred(linear_sphere(surface, laplacian, backend, progress), mass)
-    x, folded = _unfolded(surface, x, mass, repair, progress)
+    edges = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, options.laplacian)
+    x = centred(linear_sphere(surface, options.laplacian, backend, progress), mass)
+    x, folded = _unfolded(surface, x, mass, options, progress)
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...] = ()
     converged = True
-    if method != "linear":
-        if method == "newton":
-            x, history, converged = _newton(
-                surface, edges, x, mass, tolerance, max_iterations, backend, progress
-            )
+    if options.method is not Method.LINEAR:
+        if options.method is Method.NEWTON:
+            x, history, converged = _newton(surface, edges, x, mass, options, backend, progress)
         else:
             flat, history, converged = augmented_lagrangian(
                 SphereProblem(edges, surface.corners, mass),
                 x.reshape(-1),
-                max_iterations=max_iterations,
+                max_iterations=options.max_iterations,
                 progress=progress,
             )
             x = unit(flat.reshape(-1, 3))
-        x, after = _unfolded(surface, x, mass, repair, progress)
+        x, after = _unfolded(surface, x, mass, options, progress)
         folded += after
         if not converged:
-            log.warning("%s stopped before its tolerance, after %d rows", method, len(history))
+            log.warning("%s stopped before its tolerance, after %d rows", options.method, len(history))
     progress("placement", 0.0)
-    x = _placed(surface, x, mass, normalization, rotation, marks)
-    result = _result(surface, edges, x, (n, m), history, converged, folded, method, normalization)
+    x = _placed(surface, x, mass, options)
+    result = _result(surface, edges, x, (n, m), history, converged, folded, options)
     progress("placement", 1.0)
     return result
 
@@ -168,22 +154,16 @@ def _require_sphere(surface: Surface) -> None:
         )
 
 
-def _landmarks(landmarks: Sequence[int] | None, n: int) -> tuple[int, int, int] | None:
-    if landmarks is None:
-        return None
-    try:
-        a, b, c = (index(v) for v in landmarks)
-    except (TypeError, ValueError) as error:
-        raise OptionError(f"landmarks is {landmarks!r}; pass three vertex indices.") from error
-    if len({a, b, c}) < 3 or min(a, b, c) < 0 or max(a, b, c) >= n:
-        raise OptionError(f"landmarks are {a}, {b}, {c}; pass three different vertices of 0 .. {n - 1}.")
-    return a, b, c
+def _check_landmarks(landmarks: tuple[int, int, int] | None, n: int) -> None:
+    if landmarks is not None and (len(set(landmarks)) < 3 or min(landmarks) < 0 or max(landmarks) >= n):
+        told = ", ".join(map(str, landmarks))
+        raise OptionError(f"landmarks are {told}; pass three different vertices of 0 .. {n - 1}.")
 
 
-def _unfolded(surface: Surface, x: Real, mass: Real, repair: str, progress: Progress) -> tuple[Real, int]:
+def _unfolded(surface: Surface, x: Real, mass: Real, options: SphereOptions, progress: Progress) -> tuple[Real, int]:
     """Positions after the repair, centred again, and the number of faces unfolded."""
     before = len(inverted_faces(x, surface.corners))
-    if repair == "never" or not before:
+    if options.repair is Repair.NEVER or not before:
         return x, 0
     moved = unfolded(surface, x, progress)
     if moved is x:
@@ -196,8 +176,7 @@ def _newton(
     edges: EdgeLaplacian,
     x: Real,
     mass: Real,
-    tolerance: float,
-    max_iterations: int,
+    options: SphereOptions,
     backend: str,
     progress: Progress,
 ) -> SphereNewton:
@@ -207,21 +186,24 @@ def _newton(
     )
     start = SphereEnergy(edges, surface.corners, x)
     return minimise_sphere_energy(
-        start, problem, mass, tolerance=tolerance, max_iterations=max_iterations, progress=progress
+        start,
+        problem,
+        mass,
+        tolerance=options.tolerance,
+        max_iterations=options.max_iterations,
+        progress=progress,
     )
 
 
-def _placed(
-    surface: Surface, x: Real, mass: Real, normalization: str, rotation: str, marks: tuple[int, int, int] | None
-) -> Real:
-    if marks is not None:
-        return unit(landmark_aligned(x, marks))
-    if normalization == "centre":
+def _placed(surface: Surface, x: Real, mass: Real, options: SphereOptions) -> Real:
+    if options.landmarks is not None:
+        return unit(landmark_aligned(x, options.landmarks))
+    if options.normalization is Normalization.CENTRE:
         mass = np.full(surface.n, 1.0 / surface.n)
         x = centred(x, mass)
-    if rotation == "principal":
+    if options.rotation is Rotation.PRINCIPAL:
         x = x @ principal_rotation(x, mass).T
-    elif rotation == "surface":
+    elif options.rotation is Rotation.SURFACE:
         x = x @ surface_rotation(x, surface.V, mass).T
     return unit(x)
 
@@ -234,8 +216,7 @@ def _result(
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...],
     converged: bool,
     folded: int,
-    method: str,
-    normalization: str,
+    options: SphereOptions,
 ) -> SphereMap:
     a, b, c = (x[corner] for corner in surface.corners)
     dirichlet = sum(edges.energy(column.astype(np.complex128)) for column in x.T)
@@ -253,8 +234,8 @@ def _result(
         converged=converged,
         history=history,
         repaired=folded,
-        method=method,
-        normalization=normalization,
+        method=options.method,
+        normalization=options.normalization,
         laplacian=edges.kind,
         surface=surface,
     )

@@ -1,0 +1,392 @@
+"""Every choice and every option, once: frozen, and checked without a mesh.
+
+What depends on a surface (which vertices exist, which lie on the boundary) is checked where the surface is at hand.
+The names of the members' values are those of the library's arguments and of the commands' options.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from operator import index
+from typing import Any, Self, TypeVar
+
+from .errors import OptionError
+
+__all__ = [
+    "Backend",
+    "Choice",
+    "Closed",
+    "DiskOptions",
+    "Holes",
+    "Laplacian",
+    "Method",
+    "NonManifold",
+    "Normalization",
+    "Objective",
+    "Orientation",
+    "PinMode",
+    "Place",
+    "PlaceOptions",
+    "Repair",
+    "Rotation",
+    "SphereBoundary",
+    "SphereLayout",
+    "SphereOptions",
+    "SplitOptions",
+    "real_number",
+    "vertex_index",
+]
+
+INFINITY = float("inf")
+C = TypeVar("C", bound="Choice")
+
+
+class Choice(StrEnum):
+    """One of a few names; a member is equal to its name."""
+
+    @classmethod
+    def of(cls, name: str, value: object) -> Self:
+        """The member of this value.
+
+        Raises
+        ------
+        OptionError
+            None has it; `name` is that of the option.
+        """
+        try:
+            return cls(value)  # type: ignore[arg-type]
+        except ValueError as error:
+            raise OptionError(f"{name} is {value!r}; choose {cls._joint().join(cls)}.") from error
+
+    @classmethod
+    def _joint(cls) -> str:
+        return " or "
+
+
+class Method(Choice):
+    """How a map is found."""
+
+    LINEAR = "linear"
+    NEWTON = "newton"
+    AUGMENTED_LAGRANGIAN = "augmented-lagrangian"
+
+
+class Objective(Choice):
+    """What is minimised: the Dirichlet energy less the area of the image, or the Dirichlet energy."""
+
+    CONFORMAL = "conformal"
+    DIRICHLET = "dirichlet"
+
+
+class PinMode(Choice):
+    """How pins are reached."""
+
+    MOEBIUS = "moebius"
+    CONSTRAINT = "constraint"
+
+
+class Repair(Choice):
+    """What becomes of folded triangles."""
+
+    AUTO = "auto"
+    NEVER = "never"
+
+
+class Laplacian(Choice):
+    """Weights of the edges."""
+
+    AUTO = "auto"
+    COTAN = "cotan"
+    INTRINSIC_DELAUNAY = "intrinsic-delaunay"
+
+    @classmethod
+    def _joint(cls) -> str:
+        return ", "
+
+
+class Backend(Choice):
+    """Library of the linear solver."""
+
+    AUTO = "auto"
+    CHOLMOD = "cholmod"
+    SUPERLU = "superlu"
+    MULTIGRID = "multigrid"
+
+
+class Holes(Choice):
+    """All boundary loops of a chart but one."""
+
+    FILL = "fill"
+    REFUSE = "refuse"
+
+
+class Closed(Choice):
+    """Charts that are closed or have handles."""
+
+    REFUSE = "refuse"
+    CUT = "cut"
+
+
+class NonManifold(Choice):
+    """Edges of three or more polygons, and vertices where parts only touch."""
+
+    REFUSE = "refuse"
+    CUT = "cut"
+
+
+class Orientation(Choice):
+    """Polygons wound against their neighbours."""
+
+    REFUSE = "refuse"
+    MEND = "mend"
+
+
+class Place(Choice):
+    """Where charts go: into the unit square, or each onto the unit disk."""
+
+    FIT = "fit"
+    PACK = "pack"
+    DISK = "disk"
+
+    @classmethod
+    def _joint(cls) -> str:
+        return ", "
+
+
+class SphereBoundary(Choice):
+    """Boundary loops of a surface that goes onto the sphere."""
+
+    REFUSE = "refuse"
+    CAP = "cap"
+
+
+class Normalization(Choice):
+    """What the last Moebius map brings to the middle of the ball."""
+
+    AREA = "area"
+    CENTRE = "centre"
+    NONE = "none"
+
+
+class Rotation(Choice):
+    """How the sphere is turned in the end."""
+
+    PRINCIPAL = "principal"
+    SURFACE = "surface"
+    NONE = "none"
+
+
+class SphereLayout(Choice):
+    """Texture coordinates of a sphere."""
+
+    NONE = "none"
+    EQUIRECTANGULAR = "equirectangular"
+    OCTAHEDRAL = "octahedral"
+
+
+def real_number(name: str, value: object, what: str = "a number") -> float:
+    """The value as a finite float.
+
+    Raises
+    ------
+    OptionError
+        It is none.
+    """
+    try:
+        if isinstance(value, str | bytes) or type(value).__name__ in {"bool", "bool_"}:
+            raise TypeError
+        number = float(value)  # type: ignore[arg-type]
+        if number - number != 0.0:
+            raise ValueError
+    except (TypeError, ValueError, OverflowError) as error:
+        raise OptionError(f"{name} is {value!r}; pass {what}.") from error
+    return number
+
+
+def vertex_index(name: str, value: object) -> int:
+    """The value as an int.
+
+    Raises
+    ------
+    OptionError
+        It is no whole number.
+    """
+    try:
+        return index(value)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise OptionError(f"{name} is {value!r}; pass a vertex index.") from error
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """When an iteration ends."""
+
+    tolerance: float
+    relative_tolerance: float = 0.0
+    max_iterations: int = 50
+
+    def _check_limits(self) -> None:
+        given = self.tolerance, self.relative_tolerance, self.max_iterations
+        try:
+            if any(isinstance(value, str | bytes) or type(value).__name__ in {"bool", "bool_"} for value in given):
+                raise TypeError
+            norm, part, most = float(self.tolerance), float(self.relative_tolerance), index(self.max_iterations)
+        except (TypeError, ValueError) as error:
+            raise OptionError(
+                f"tolerance is {self.tolerance!r}, relative_tolerance {self.relative_tolerance!r}, max_iterations "
+                f"{self.max_iterations!r}; pass numbers."
+            ) from error
+        if not 0.0 < norm < INFINITY or most < 0:
+            raise OptionError(f"tolerance must be positive and max_iterations not negative; got {norm} and {most}.")
+        if not 0.0 <= part < 1.0:
+            raise OptionError(f"relative_tolerance must be at least 0 and less than 1; got {part}.")
+        _set(self, tolerance=norm, relative_tolerance=part, max_iterations=most)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DiskOptions(Limits):
+    """What to solve on a disk and how to place it; see `disk_map`.
+
+    Vertices are those of the mesh; `disk.anchors.anchored` checks them against a surface.
+    """
+
+    method: Method = Method.NEWTON
+    objective: Objective | None = None
+    pins: tuple[int, int, int] | None = None
+    pin_mode: PinMode | None = None
+    center: int | None = None
+    boundary_vertex: int | None = None
+    tolerance: float = 1e-10
+    repair: Repair = Repair.AUTO
+
+    def __post_init__(self) -> None:
+        method = Method.of("method", self.method)
+        report = method is Method.AUGMENTED_LAGRANGIAN
+        objective, pin_mode = self.objective, self.pin_mode
+        if objective is None:
+            objective = Objective.DIRICHLET if report else Objective.CONFORMAL
+        if pin_mode is None:
+            pin_mode = PinMode.CONSTRAINT if report else PinMode.MOEBIUS
+        _set(
+            self,
+            method=method,
+            objective=Objective.of("objective", objective),
+            pin_mode=PinMode.of("pin_mode", pin_mode),
+            repair=Repair.of("repair", self.repair),
+        )
+        if report and self.pin_mode is not PinMode.CONSTRAINT:
+            raise OptionError("The augmented Lagrangian takes its pins as constraints; leave pin_mode out.")
+        if method is Method.LINEAR and self.pin_mode is PinMode.CONSTRAINT:
+            raise OptionError('The linear method does not optimise; it takes pins only with pin_mode="moebius".')
+        self._check_limits()
+        if self.pins is not None:
+            _set(self, pins=_three(self.pins))
+        if self.needs_pins and (self.center is not None or self.boundary_vertex is not None):
+            raise OptionError("Three pins already fix the map; leave out center and boundary_vertex.")
+        for name in ("center", "boundary_vertex"):
+            if getattr(self, name) is not None:
+                _set(self, **{name: vertex_index(name, getattr(self, name))})
+
+    @property
+    def needs_pins(self) -> bool:
+        """Whether there are pins, given or by default."""
+        return self.pins is not None or self.pin_mode is PinMode.CONSTRAINT
+
+    @property
+    def constrained_pins(self) -> tuple[int, int, int] | None:
+        """Pins that are constraints of the optimisation."""
+        return self.pins if self.pin_mode is PinMode.CONSTRAINT else None
+
+    @property
+    def solution_key(self) -> tuple[object, ...]:
+        """What the solution depends on before it is placed."""
+        limits = self.tolerance, self.relative_tolerance, self.max_iterations
+        return self.method, self.objective, *limits, self.constrained_pins
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SplitOptions:
+    """What to do with a mesh that does not fall into disks by itself; see `unwrap`."""
+
+    holes: Holes = Holes.FILL
+    closed: Closed = Closed.REFUSE
+    nonmanifold: NonManifold = NonManifold.REFUSE
+    orientation: Orientation = Orientation.REFUSE
+
+    def __post_init__(self) -> None:
+        _set(
+            self,
+            holes=Holes.of("holes", self.holes),
+            closed=Closed.of("closed", self.closed),
+            nonmanifold=NonManifold.of("nonmanifold", self.nonmanifold),
+            orientation=Orientation.of("orientation", self.orientation),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceOptions:
+    """Where charts go in the texture; see `unwrap`."""
+
+    place: Place = Place.FIT
+    margin: float | None = None
+    rotation: float = 0.0
+
+    def __post_init__(self) -> None:
+        margin = self.margin
+        if margin is not None:
+            margin = real_number("margin", margin, "a part of the square's side")
+        _set(self, rotation=real_number("rotation", self.rotation, "radians"), margin=margin)
+        _set(self, place=Place.of("place", self.place))
+        if margin is not None and not 0.0 <= margin < 0.5:
+            raise OptionError(f"margin is {margin}; pass a part of the unit square's side, at least 0 and below 0.5.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SphereOptions(Limits):
+    """What to solve on the sphere and how to place it; see `sphere_map`."""
+
+    method: Method = Method.NEWTON
+    normalization: Normalization = Normalization.AREA
+    rotation: Rotation = Rotation.PRINCIPAL
+    landmarks: tuple[int, int, int] | None = None
+    boundary: SphereBoundary = SphereBoundary.REFUSE
+    tolerance: float = 1e-8
+    laplacian: Laplacian = Laplacian.AUTO
+    repair: Repair = Repair.AUTO
+
+    def __post_init__(self) -> None:
+        _set(
+            self,
+            method=Method.of("method", self.method),
+            normalization=Normalization.of("normalization", self.normalization),
+            rotation=Rotation.of("rotation", self.rotation),
+            boundary=SphereBoundary.of("boundary", self.boundary),
+            laplacian=Laplacian.of("laplacian", self.laplacian),
+            repair=Repair.of("repair", self.repair),
+        )
+        self._check_limits()
+        if self.landmarks is not None:
+            try:
+                a, b, c = (index(v) for v in self.landmarks)
+            except (TypeError, ValueError) as error:
+                raise OptionError(f"landmarks is {self.landmarks!r}; pass three vertex indices.") from error
+            _set(self, landmarks=(a, b, c))
+
+
+def _three(pins: Sequence[int]) -> tuple[int, int, int]:
+    try:
+        values = list(pins)
+    except TypeError as error:
+        raise OptionError(f"pins is {pins!r}; pass three boundary vertices.") from error
+    if len(values) != 3:
+        raise OptionError(f"{len(values)} pins; pass three boundary vertices.")
+    a, b, c = (vertex_index("pins", value) for value in values)
+    return a, b, c
+
+
+def _set(options: Any, **values: Any) -> None:
+    """Give fields of a frozen object their checked values, while it is made."""
+    for name, value in values.items():
+        object.__setattr__(options, name, value)
