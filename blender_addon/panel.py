@@ -59,6 +59,7 @@ def rows(ob):
     if quality is not None:
         told += [
             ("Angle error, mean", f"{quality.angle_mean:.3g}°"),
+            ("Angle error, rms", f"{quality.angle_rms:.3g}°"),
             ("Angle error, largest", f"{quality.angle_max:.3g}°"),
             ("Area ratio", "-" if quality.area_ratio is None else f"{quality.area_ratio:.3g}"),
             ("Flipped faces", str(ob.flipped)),

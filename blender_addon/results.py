@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property
+from math import isfinite
 from typing import Any
 
 import numpy as np
 
 from conformal_uv import Chart, ConformalUVError
 from conformal_uv.errors import Remedy
+from conformal_uv.report import DistortionNumbers, unwrap_numbers
 
 from .properties import CLOSED, METHODS
 from .tasks import Task
 
-NOT_TOLD = {"charts", "tried", "left"}  # in JSON
+NOT_TOLD = {"measure", "tried", "left"}  # in JSON
 MOST_FACES, MOST_FAILURES = 3, 4  # named in a message
 
 
@@ -24,15 +27,6 @@ class Failure:
 
     faces: list[int]
     why: str
-
-
-@dataclass(frozen=True)
-class Quality:
-    """Angle error in degrees over all unwrapped islands; largest over smallest change of a face's area."""
-
-    angle_mean: float
-    angle_max: float
-    area_ratio: float | None
 
 
 @dataclass(frozen=True)
@@ -49,27 +43,19 @@ class ObjectResult:
     notes: list[str] = field(default_factory=list)
     flipped: int = 0
     lost_to_float32: int = 0
-    charts: list[Chart] = field(default_factory=list, repr=False)
+    measure: Callable[[], DistortionNumbers | None] = field(default=lambda: None, repr=False)
 
     @cached_property
-    def quality(self) -> Quality | None:
-        """Measured when first asked for; None where nothing was unwrapped."""
-        distortions = [chart.distortion for chart in self.charts]
-        if not distortions:
-            return None
-        corners = [d.angle_error.size for d in distortions]
-        scales = np.concatenate([d.area_scale for d in distortions])
-        return Quality(
-            angle_mean=float(np.average([d.angle_mean for d in distortions], weights=corners)),
-            angle_max=max(d.angle_max for d in distortions),
-            area_ratio=_ratio(scales),
-        )
+    def quality(self) -> DistortionNumbers | None:
+        """Distortion over all unwrapped islands, measured when first asked for; None where there are none."""
+        return self.measure()
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
         told = {item.name: getattr(self, item.name) for item in fields(self) if item.name not in NOT_TOLD}
         told["failures"] = [asdict(failure) for failure in self.failures]
-        return {**told, **(asdict(self.quality) if self.quality else {})}
+        quality = asdict(self.quality) if self.quality else {}
+        return {**told, **{name: value for name, value in quality.items() if value is None or isfinite(value)}}
 
 
 @dataclass(frozen=True)
@@ -155,7 +141,7 @@ def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
         for number, chart in enumerate(charts)
         if not written[number]
     ]
-    lost = task.solved.lost_to_float32(stored)[written] if stored is not None else np.zeros(0)
+    lost = task.solved.lost_to_float32(stored)[written].sum() if stored is not None else 0
     return ObjectResult(
         task.ob.name,
         task.layer,
@@ -164,19 +150,14 @@ def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
         left=len(task.left),
         notes=task.notes + [note for chart in done for note in chart.notes] + _unconverged(done),
         flipped=sum(len(chart.flipped) for chart in done),
-        lost_to_float32=int(lost.sum()),
-        charts=done,
+        lost_to_float32=int(lost),
+        measure=lambda: unwrap_numbers(task.solved, uv=stored, chosen=written).distortion,
     )
 
 
 def _unconverged(charts: list[Chart]) -> list[str]:
     count = sum(not chart.map.converged for chart in charts)
     return [f"{count} islands stopped before the method's tolerance"] if count else []
-
-
-def _ratio(scales: np.ndarray) -> float | None:
-    finite = scales[np.isfinite(scales) & (scales > 0)]
-    return float(finite.max() / finite.min()) if len(finite) else None
 
 
 def _some(faces: list[int]) -> str:

@@ -7,11 +7,12 @@ from numpy.typing import NDArray
 
 from conformal_uv import Unwrapped
 from conformal_uv.options import Choice
+from conformal_uv.report import DistortionNumbers, unwrap_numbers
 
 from .current_mesh import CurrentMesh
 from .texcoords import Texcoords
 
-__all__ = ["Quality", "map_numbers", "polygon_quality"]
+__all__ = ["Quality", "distortion_fields", "map_numbers", "polygon_quality"]
 
 
 
@@ -47,26 +48,32 @@ def _bounded(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def map_numbers(source: CurrentMesh, result: Unwrapped, texcoords: Texcoords) -> dict[str, float]:
     """What the filter returns."""
-    maps = [chart.map for chart in result.charts if chart.map is not None]
-    done = [chart.distortion for chart in result.charts if chart.distortion is not None]
-    error = np.concatenate([d.angle_error.reshape(-1) for d in done])
-    ratio = np.concatenate([d.quasi_conformal for d in done])
-    new = result.mapped[source.wedges.polygon]
+    numbers = unwrap_numbers(result)
+    distortion = numbers.distortion
+    assert distortion is not None
     return {
-        "charts": len(result.charts),
-        "mapped_charts": len(maps),
+        "charts": numbers.charts,
+        "mapped_charts": numbers.mapped_charts,
         "faces": len(source.F),
-        "mapped_faces": int(new.sum()),
+        "mapped_faces": int(result.mapped[source.wedges.polygon].sum()),
         "torn_vertices": int(texcoords.torn.sum()),
-        "angle_error_mean": float(error.mean()),
-        "angle_error_sd": float(error.std()),
-        "angle_error_max": float(error.max()),
-        "quasi_conformal_median": float(np.median(ratio)),
-        "quasi_conformal_max": float(ratio.max()),
-        "conformal_energy": sum(m.conformal_energy for m in maps),
-        "dirichlet_energy": sum(m.dirichlet_energy for m in maps),
-        "flipped_polygons": sum(len(chart.flipped) for chart in result.charts),
-        "lost_to_double": sum(len(m.lost_to_double) for m in maps),
-        "lost_to_float32": int(result.lost_to_float32().sum()),
-        "converged_charts": sum(m.converged for m in maps),
+        **distortion_fields(distortion),
+        "conformal_energy": numbers.conformal_energy,
+        "dirichlet_energy": numbers.dirichlet_energy,
+        "flipped_polygons": len(numbers.flipped),
+        "lost_to_double": numbers.lost_to_double,
+        "lost_to_float32": int(numbers.lost_to_float32.sum()),
+        "converged_charts": numbers.converged_charts,
+    }
+
+
+def distortion_fields(distortion: DistortionNumbers) -> dict[str, float]:
+    """What the filters return of the distortion."""
+    return {
+        "angle_error_mean": distortion.angle_mean,
+        "angle_error_rms": distortion.angle_rms,
+        "angle_error_sd": distortion.angle_sd,
+        "angle_error_max": distortion.angle_max,
+        "quasi_conformal_median": distortion.quasi_conformal_median,
+        "quasi_conformal_max": distortion.quasi_conformal_max,
     }

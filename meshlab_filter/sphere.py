@@ -9,11 +9,12 @@ import numpy as np
 
 from conformal_uv import SphereMap, sphere_map
 from conformal_uv.progress import Callback
+from conformal_uv.report import distortion_numbers
 
 from .current_mesh import read_current_mesh
 from .exceptions import pymeshlab_errors
 from .function_filters import check_function_filters, vertex_variable
-from .quality import Quality
+from .quality import Quality, distortion_fields
 from .script_history import unrecorded
 from .texcoords import write_face_scalar
 
@@ -113,11 +114,8 @@ def compute_coord_conformal_sphere(
 
 
 def _numbers(result: SphereMap) -> dict[str, float]:
-    d = result.distortion
     return {
-        "angle_error_mean": d.angle_mean,
-        "angle_error_sd": d.angle_sd,
-        "angle_error_max": d.angle_max,
+        **distortion_fields(distortion_numbers([result.distortion])),
         "conformal_energy": result.conformal_energy,
         "dirichlet_energy": result.dirichlet_energy,
         "signed_volume": result.signed_volume,

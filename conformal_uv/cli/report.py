@@ -16,6 +16,7 @@ from ..mesh.geometry import triangle_geometry
 from ..mesh.triangulate import triangulate
 from ..operators.distortion import distortion_of
 from ..operators.laplacian import cotangent_weights
+from ..report import distortion_numbers
 from .outputs import Outputs
 from .stages import Stages
 from .summary import distortion_summary, print_rows
@@ -98,7 +99,7 @@ def _uv_summary(mesh_file: MeshFile, corner_of: NDArray[np.int64]) -> dict[str, 
     measured = distortion_of(triangle_geometry(positions, corners), corners, filled)
     return {
         "triangles": corners.shape[1],
-        **distortion_summary([measured]),
+        **distortion_summary(distortion_numbers([measured])),
         "flipped_faces": len(measured.flipped),
     }
 

@@ -15,6 +15,7 @@ from ..files import MeshFile, read_mesh, write_mesh
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangulate import triangulate
 from ..options import Backend, Laplacian, Method, Normalization, Repair, Rotation, SphereBoundary, SphereLayout
+from ..report import distortion_numbers
 from ..sphere import SphereMap, sphere_map
 from ..sphere.layout import equirectangular, octahedral
 from .figure import draw_sphere_map
@@ -130,7 +131,7 @@ def _summary(result: SphereMap, source: str, target: str, seconds: dict[str, flo
         "conformal_energy": result.conformal_energy,
         "dirichlet_energy": result.dirichlet_energy,
         "signed_volume": result.signed_volume,
-        **distortion_summary([result.distortion]),
+        **distortion_summary(distortion_numbers([result.distortion])),
         "flipped_faces": len(result.flipped),
         "repaired_faces": result.repaired,
         "seconds": seconds,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
@@ -13,7 +12,7 @@ from .._version import __version__
 from ..charts import Chart, Unwrapped
 from ..disk import DiskMap
 from ..errors import Remedy
-from ..operators import Distortion
+from ..report import DistortionNumbers, distortion_numbers, unwrap_numbers
 from .terminal import plain
 
 __all__ = ["angles_text", "distortion_summary", "iterations_text", "print_rows", "print_summary", "unwrapped_summary"]
@@ -23,36 +22,43 @@ MOST_CHARTS = 20  # rows printed
 INFINITE = float("inf")
 
 
-def distortion_summary(distortions: list[Distortion]) -> dict[str, Any]:
-    """Angle error in degrees and quasi-conformal ratio, over all triangles together."""
-    error = np.concatenate([d.angle_error.reshape(-1) for d in distortions])
-    ratio = np.concatenate([d.quasi_conformal for d in distortions])
+def distortion_summary(numbers: DistortionNumbers) -> dict[str, Any]:
+    """Angle error in degrees and quasi-conformal ratio."""
     return {
-        "angle_error_degrees": {"mean": float(error.mean()), "sd": float(error.std()), "max": float(error.max())},
-        "quasi_conformal_ratio": {"median": _finite(np.median(ratio)), "max": _finite(ratio.max())},
+        "angle_error_degrees": {
+            "mean": numbers.angle_mean,
+            "rms": numbers.angle_rms,
+            "sd": numbers.angle_sd,
+            "max": numbers.angle_max,
+        },
+        "quasi_conformal_ratio": {
+            "median": _finite(numbers.quasi_conformal_median),
+            "max": _finite(numbers.quasi_conformal_max),
+        },
+        "area_ratio": numbers.area_ratio,
     }
 
 
 def unwrapped_summary(result: Unwrapped, source: str, target: str, seconds: dict[str, float]) -> dict[str, Any]:
     """Everything that is told of an unwrapped mesh; with one chart its fields stand on top as well."""
-    lost = result.lost_to_float32().tolist()
+    numbers = unwrap_numbers(result)
+    assert numbers.distortion is not None
+    lost = numbers.lost_to_float32.tolist()
     charts = [_chart_summary(number, chart, lost[number]) for number, chart in enumerate(result.charts)]
-    done = [chart for chart in result.charts if chart.distortion is not None]
-    flipped = np.concatenate([chart.flipped for chart in done])
     summary: dict[str, Any] = {
         "conformal_uv": __version__,
         "input": source,
         "output": target,
         "summary": result.told(Remedy.as_flag),
         "mesh": {
-            "triangles": sum(len(chart.F) for chart in result.charts),
-            "vertices": len(np.unique(np.concatenate([chart.vertices for chart in result.charts]))),
+            "triangles": numbers.triangles,
+            "vertices": numbers.vertices,
             "faces": len(result.mapped),
             "mapped_faces": int(result.mapped.sum()),
         },
-        **distortion_summary([chart.distortion for chart in done if chart.distortion is not None]),
-        "flipped_faces": len(flipped),
-        "flipped": flipped[:MOST_LISTED].tolist(),
+        **distortion_summary(numbers.distortion),
+        "flipped_faces": len(numbers.flipped),
+        "flipped": numbers.flipped[:MOST_LISTED].tolist(),
         "charts": charts,
         "seconds": seconds,
     }
@@ -74,7 +80,7 @@ def _chart_summary(number: int, chart: Chart, lost_to_float32: int) -> dict[str,
         return {**told, "error": f"{type(chart.error).__name__}: {chart.error.told(Remedy.as_flag)}"}
     assert chart.map is not None and chart.distortion is not None
     told.update(_map_summary(chart.map), lost_to_float32=lost_to_float32)
-    return {**told, **distortion_summary([chart.distortion])}
+    return {**told, **distortion_summary(distortion_numbers([chart.distortion]))}
 
 
 def _map_summary(result: DiskMap) -> dict[str, Any]:
@@ -151,8 +157,8 @@ def _chart_line(chart: dict[str, Any]) -> str:
 
 
 def angles_text(angle: dict[str, float]) -> str:
-    """Mean, standard deviation and maximum of the angle error in words."""
-    return "mean {mean:.4g}, sd {sd:.4g}, max {max:.4g} degrees".format(**angle)
+    """Mean, root mean square and maximum of the angle error in words."""
+    return "mean {mean:.4g}, rms {rms:.4g}, max {max:.4g} degrees".format(**angle)
 
 
 def iterations_text(chart: dict[str, Any]) -> str:

@@ -1,0 +1,71 @@
+"""The numbers of maps: each door shows the same, as stored."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from meshes import disjoint, plate
+from typer.testing import CliRunner
+
+import conformal_uv as cuv
+from conformal_uv.report import distortion_numbers, unwrap_numbers
+from conformal_uv.samples import mask
+
+TWO = disjoint(mask(300), plate(6, 5))
+
+
+def test_numbers_against_the_arrays_they_sum_up() -> None:
+    result = cuv.unwrap(*TWO, method="linear")
+    numbers = unwrap_numbers(result)
+    V, F = TWO
+    corners = result.uv.reshape(-1, 3, 2)
+    image = np.zeros((len(V), 2))
+    image[F] = corners
+    error = cuv.distortion(V, F, image).angle_error
+    d = numbers.distortion
+    assert d.angle_mean == pytest.approx(error.mean(), rel=1e-9)
+    assert d.angle_rms == pytest.approx(np.sqrt((error**2).mean()), rel=1e-9)
+    assert d.angle_sd == pytest.approx(error.std(), rel=1e-9)
+    assert d.angle_max == pytest.approx(error.max(), rel=1e-9)
+    area = cuv.distortion(V, F, image).area_scale  # as stored: charts packed at the sizes they have
+    assert d.area_ratio == pytest.approx(area.max() / area.min(), rel=1e-9)
+    assert (numbers.charts, numbers.mapped_charts, numbers.converged_charts) == (2, 2, 2)
+    assert numbers.triangles == len(F) and numbers.vertices == len(V)
+    assert numbers.conformal_energy == sum(chart.map.conformal_energy for chart in result.charts)
+
+
+def test_some_charts_and_none() -> None:
+    result = cuv.unwrap(*TWO, method="linear")
+    one = unwrap_numbers(result, chosen=np.array([True, False]))
+    assert one.mapped_charts == 1
+    assert one.distortion.angle_mean == distortion_numbers([result.charts[0].distortion]).angle_mean
+    none = unwrap_numbers(result, chosen=np.array([False, False]))
+    assert none.distortion is None and len(none.flipped) == 0 and none.lost_to_float32.sum() == 0
+
+
+def test_the_command_and_the_filter_show_these_numbers(tmp_path) -> None:
+    pymeshlab = pytest.importorskip("pymeshlab")
+    from conformal_uv.cli.app import app
+    from meshlab_filter import compute_texcoord_parametrization_conformal_disk as conformal_disk
+
+    V, F = TWO
+    path = tmp_path / "two.npz"
+    np.savez(path, V=V, F=F)
+    expected = unwrap_numbers(cuv.unwrap(V, F, method="linear"))
+    done = CliRunner().invoke(
+        app, ["disk", str(path), str(tmp_path / "out.npz"), "--method", "linear", "--json", str(tmp_path / "n.json")]
+    )
+    assert done.exit_code == 0, done.output
+    told = json.loads((tmp_path / "n.json").read_text())
+    d = expected.distortion
+    assert told["angle_error_degrees"] == {
+        "mean": d.angle_mean, "rms": d.angle_rms, "sd": d.angle_sd, "max": d.angle_max
+    }
+    assert told["area_ratio"] == d.area_ratio
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(V, F))
+    filtered = conformal_disk(ms, method="linear")
+    assert filtered["angle_error_rms"] == pytest.approx(d.angle_rms, rel=1e-9)
+    assert filtered["lost_to_float32"] == expected.lost_to_float32.sum()
