@@ -113,7 +113,7 @@ def compute_texcoord_parametrization_conformal_disk(
     Returns
     -------
     dict of numbers
-        charts, mapped_charts, faces, mapped_faces, torn_vertices, angle_error_mean, angle_error_sd,
+        charts, mapped_charts, faces, mapped_faces, torn_vertices, angle_error_mean, angle_error_rms, angle_error_sd,
         angle_error_max (degrees), quasi_conformal_median, quasi_conformal_max, conformal_energy, dirichlet_energy,
         flipped_polygons, lost_to_double, lost_to_float32 (faces without area as stored), converged_charts.
 
