@@ -10,6 +10,7 @@ from ..errors import DegenerateFaceError, MeshError, NonFiniteError, Unreference
 __all__ = ["check_referenced", "face_array", "on_one_line", "scaled", "squared_units", "vertex_array"]
 
 MOST_VERTICES = 2**31 - 1
+FEW = 100  # vertices, which nearly always tell already that they are on no line
 
 
 def vertex_array(V: ArrayLike) -> NDArray[np.float64]:
@@ -131,11 +132,16 @@ def on_one_line(V: NDArray[np.float64]) -> bool:
 
     Seen along each axis, the vector product of a difference of points and the longest one is wrong by a few eps times
     the sizes of the two coordinates; a mesh that is only very thin, or has one very long spike, is wider than that.
+    `V` is scaled.
     """
-    V, _ = scaled(V)
+    if not _on_line(V[:FEW], np.ones(3)):
+        return False
+    return _on_line(V, np.abs(V).max(axis=0))
+
+
+def _on_line(V: NDArray[np.float64], size: NDArray[np.float64]) -> bool:
     from_first = V - V[0]
     farthest = from_first[np.argmax(np.abs(from_first).max(axis=1))]
-    size = np.abs(V).max(axis=0)
     for i, j in ((0, 1), (1, 2), (2, 0)):
         across = from_first[:, i] * farthest[j] - from_first[:, j] * farthest[i]
         rounding = 8.0 * np.finfo(np.float64).eps * (size[i] * abs(farthest[j]) + size[j] * abs(farthest[i]))
