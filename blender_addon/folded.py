@@ -6,8 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.mesh.polygons import PolygonMesh
-from conformal_uv.mesh.triangulate import triangulate
+from conformal_uv import PolygonMesh, triangulate
 from conformal_uv.operators.orientation_sign import orientation_signs
 
 from .edit_mode import object_mode, target_objects

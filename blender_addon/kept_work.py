@@ -10,10 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from conformal_uv import Unwrapped, Unwrapper
-from conformal_uv.mesh.polygons import PolygonMesh
+from conformal_uv import Callback, PolygonMesh, Unwrapped, Unwrapper
 from conformal_uv.options import Closed, Holes, Method, NonManifold, Orientation, Repair
-from conformal_uv.progress import Callback
 
 from .mesh_io import MeshArrays, pinned_vertices
 from .properties import Options

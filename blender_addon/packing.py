@@ -12,8 +12,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv import MissingDependencyError
-from conformal_uv.charts import pack_together
+from conformal_uv import MissingDependencyError, pack_together
 
 from .edit_mode import select_only, settled_mesh
 from .mesh_io import DEFAULT_LAYER, MeshArrays, new_mesh, read_uv

@@ -10,9 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from conformal_uv import Chart, ConformalUVError
-from conformal_uv.errors import Remedy
-from conformal_uv.report import DistortionNumbers, unwrap_numbers
+from conformal_uv import Chart, ConformalUVError, DistortionNumbers, Remedy, unwrap_numbers
 
 from .properties import CLOSED, METHODS
 from .tasks import Task

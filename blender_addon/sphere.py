@@ -64,10 +64,8 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
         """Solve, then write; a mesh that can not be mapped is left as it was."""
         import numpy as np
 
-        from conformal_uv import MeshError, OptionError, sphere_map
+        from conformal_uv import MeshError, OptionError, PolygonMesh, sphere_map, triangulate
         from conformal_uv.errors import renumbered
-        from conformal_uv.mesh import PolygonMesh
-        from conformal_uv.mesh.triangulate import triangulate
         from conformal_uv.sphere.layout import equirectangular, octahedral
 
         layer = uv_layer_name(ob.data, "")

@@ -8,8 +8,7 @@ from collections.abc import Callable, Iterable
 import bpy
 import numpy as np
 
-from conformal_uv import CancelledError, ConformalUVError
-from conformal_uv.progress import Callback
+from conformal_uv import Callback, CancelledError, ConformalUVError
 
 from .edit_mode import object_mode
 from .image_aspect import ROUND, aspect_scale

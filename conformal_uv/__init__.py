@@ -11,8 +11,16 @@ from typing import TYPE_CHECKING, Any
 from ._version import __version__
 
 if TYPE_CHECKING:
-    from .charts import Chart, Unwrapped, Unwrapper, unwrap
+    from .charts import (
+        Chart,
+        Placement,
+        Unwrapped,
+        Unwrapper,
+        pack_together,
+        unwrap,
+    )
     from .disk import DiskMap, DiskMapper, disk_map
+    from .disk.repair import Repair
     from .errors import (
         CancelledError,
         ConformalUVError,
@@ -26,10 +34,13 @@ if TYPE_CHECKING:
         NonManifoldError,
         OptionError,
         OrientationError,
+        Remedy,
         SolverError,
         TopologyError,
         UnreferencedVertexError,
     )
+    from .mesh import PolygonMesh, Surface
+    from .mesh.triangulate import triangulate
     from .operators import (
         Distortion,
         Moebius,
@@ -41,9 +52,14 @@ if TYPE_CHECKING:
         mixed_voronoi_areas,
         uniform_laplacian,
     )
+    from .optimize import AugmentedLagrangianStep, NewtonStep
+    from .progress import Callback
+    from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, unwrap_numbers
     from .sphere import SphereMap, sphere_map
 
 __all__ = [
+    "AugmentedLagrangianStep",
+    "Callback",
     "CancelledError",
     "Chart",
     "ConformalUVError",
@@ -52,19 +68,27 @@ __all__ = [
     "DiskMap",
     "DiskMapper",
     "Distortion",
+    "DistortionNumbers",
     "DuplicateFaceError",
     "FileFormatError",
     "MeshError",
     "MissingDependencyError",
     "Moebius",
+    "NewtonStep",
     "NonFiniteError",
     "NonManifoldError",
     "OptionError",
     "OrientationError",
+    "Placement",
+    "PolygonMesh",
+    "Remedy",
+    "Repair",
     "SolverError",
     "SphereMap",
+    "Surface",
     "TopologyError",
     "UnreferencedVertexError",
+    "UnwrapNumbers",
     "Unwrapped",
     "Unwrapper",
     "__version__",
@@ -72,15 +96,21 @@ __all__ = [
     "cotangent_laplacian_intrinsic",
     "disk_map",
     "distortion",
+    "distortion_numbers",
     "face_areas",
     "gradient",
     "mixed_voronoi_areas",
+    "pack_together",
     "sphere_map",
+    "triangulate",
     "uniform_laplacian",
     "unwrap",
+    "unwrap_numbers",
 ]
 
 _HOME = {
+    "AugmentedLagrangianStep": "optimize",
+    "Callback": "progress",
     "CancelledError": "errors",
     "Chart": "charts",
     "ConformalUVError": "errors",
@@ -89,31 +119,43 @@ _HOME = {
     "DiskMap": "disk",
     "DiskMapper": "disk",
     "Distortion": "operators",
+    "DistortionNumbers": "report",
     "DuplicateFaceError": "errors",
     "FileFormatError": "errors",
     "MeshError": "errors",
     "MissingDependencyError": "errors",
     "Moebius": "operators",
+    "NewtonStep": "optimize",
     "NonFiniteError": "errors",
     "NonManifoldError": "errors",
     "OptionError": "errors",
     "OrientationError": "errors",
+    "Placement": "charts",
+    "PolygonMesh": "mesh",
+    "Remedy": "errors",
+    "Repair": "disk.repair",
     "SolverError": "errors",
     "SphereMap": "sphere",
+    "Surface": "mesh",
     "TopologyError": "errors",
     "UnreferencedVertexError": "errors",
+    "UnwrapNumbers": "report",
     "Unwrapped": "charts",
     "Unwrapper": "charts",
     "cotangent_laplacian": "operators",
     "cotangent_laplacian_intrinsic": "operators",
     "disk_map": "disk",
     "distortion": "operators",
+    "distortion_numbers": "report",
     "face_areas": "operators",
     "gradient": "operators",
     "mixed_voronoi_areas": "operators",
+    "pack_together": "charts",
     "sphere_map": "sphere",
+    "triangulate": "mesh.triangulate",
     "uniform_laplacian": "operators",
     "unwrap": "charts",
+    "unwrap_numbers": "report",
 }
 
 

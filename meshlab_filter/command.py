@@ -8,11 +8,10 @@ from typing import Annotated, Any
 
 import typer
 
-from conformal_uv import ConformalUVError, OptionError
+from conformal_uv import ConformalUVError, OptionError, Remedy
 from conformal_uv.cli.stages import Stages
 from conformal_uv.cli.summary import print_summary
 from conformal_uv.cli.terminal import plain
-from conformal_uv.errors import Remedy
 from conformal_uv.files import check_distinct, check_place, is_standard_output, replaced_file
 from conformal_uv.interrupt import interruptible
 from conformal_uv.options import Closed, Holes, Method, NonManifold, Orientation, Repair

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.mesh.polygons import PolygonMesh
+from conformal_uv import PolygonMesh
 
 from .wedges import Wedges, triangle_wedges, wedges_of_polygons
 

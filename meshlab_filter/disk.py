@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conformal_uv import OptionError, Unwrapped, unwrap
-from conformal_uv.progress import Callback
+from conformal_uv import Callback, OptionError, Unwrapped, unwrap
 
 from .current_mesh import read_current_mesh
 from .exceptions import pymeshlab_errors

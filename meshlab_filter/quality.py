@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv import Unwrapped
+from conformal_uv import DistortionNumbers, Unwrapped, unwrap_numbers
 from conformal_uv.options import Choice
-from conformal_uv.report import DistortionNumbers, unwrap_numbers
 
 from .current_mesh import CurrentMesh
 from .texcoords import Texcoords

@@ -7,9 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from conformal_uv import SphereMap, sphere_map
-from conformal_uv.progress import Callback
-from conformal_uv.report import distortion_numbers
+from conformal_uv import Callback, SphereMap, distortion_numbers, sphere_map
 
 from .current_mesh import read_current_mesh
 from .exceptions import pymeshlab_errors
