@@ -30,7 +30,14 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Remedy:
-    """A value of an option that would do; or, without a value, a function that does it instead."""
+    """A value of an option that would do; or, without a value, a function that does it instead.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> cuv.Remedy("closed", "cut").as_argument(), cuv.Remedy("closed", "cut").as_flag()
+    ('pass closed="cut"', 'use --closed cut')
+    """
 
     option: str
     value: str = ""

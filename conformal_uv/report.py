@@ -82,6 +82,14 @@ def distortion_numbers(
     ----------
     area_factors : sequence of float, optional
         By which the areas of each image were multiplied after its distortion was measured.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> d = cuv.distortion(V, [[0, 1, 2]], [[0, 0], [2, 0], [0, 1]])
+    >>> cuv.distortion_numbers([d]).quasi_conformal_max
+    2.0
     """
     error = np.concatenate([d.angle_error.reshape(-1) for d in distortions])
     ratio = np.concatenate([d.quasi_conformal for d in distortions])
@@ -110,6 +118,14 @@ def unwrap_numbers(
         Coordinates as they are stored, where the caller has moved its islands; by default ``result.uv``.
     chosen : (c,) bool, optional
         The charts whose maps count, mapped ones; by default all that were mapped.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> from conformal_uv.samples import mask
+    >>> numbers = cuv.unwrap_numbers(cuv.unwrap(*mask(500)))
+    >>> numbers.mapped_charts, numbers.distortion.angle_mean < numbers.distortion.angle_rms
+    (1, True)
     """
     stored = result.uv if uv is None else uv
     taken = [chart.map is not None for chart in result.charts] if chosen is None else chosen.tolist()

@@ -40,6 +40,15 @@ def pack_together(
     ------
     MissingDependencyError
         There are several charts and rectangle-packer is not installed.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> from conformal_uv.samples import mask
+    >>> results = [cuv.unwrap(*mask(n), place="disk") for n in (200, 300)]
+    >>> one, other = cuv.pack_together(results, [[True], [True]])
+    >>> bool(min(one.min(), other.min()) >= 0.0 and max(one.max(), other.max()) <= 1.0)
+    True
     """
     charts = [(number, chart) for number, chart in _chosen(results, wanted)]
     area = np.array([face_areas(chart.mesh.V, chart.F).sum() for _, chart in charts])

@@ -106,6 +106,16 @@ def unwrap(
         Several charts are to be packed and rectangle-packer is not installed.
     CancelledError
         The callback returned False.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    >>> sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    >>> cuv.unwrap(cube, sides).summary
+    'mapped 0 of 1 chart; chart 0 (faces 0, 1, 2, 3, 4, 5): The chart is closed, of genus 0: it has no boundary. ...'
+    >>> cuv.unwrap(cube, sides, closed="cut").summary
+    'mapped 1 of 1 chart'
     """
     unwrapper = Unwrapper(
         V,

@@ -33,6 +33,14 @@ class Unwrapper:
     ----------
     V, polygons, seams, selection, holes, outer_loop, closed, nonmanifold, orientation, laplacian, backend, callback
         As in `unwrap`, with the same errors. Charts are factorized when they are first mapped.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> from conformal_uv.samples import mask
+    >>> unwrapper = cuv.Unwrapper(*mask(500))
+    >>> unwrapper.unwrap(rotation=0.1).summary, unwrapper.unwrap(method="linear").summary
+    ('mapped 1 of 1 chart', 'mapped 1 of 1 chart')
     """
 
     def __init__(

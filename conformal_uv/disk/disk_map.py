@@ -92,6 +92,15 @@ def disk_map(
         The numerical solution failed.
     CancelledError
         The callback returned False.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> from conformal_uv.samples import mask
+    >>> V, F = mask(500)
+    >>> m = cuv.disk_map(V, F)
+    >>> m.uv.shape, m.converged, len(m.flipped)
+    ((500, 2), True, 0)
     """
     return DiskMapper(V, F, laplacian=laplacian, backend=backend, callback=callback).map(
         method=method,

@@ -40,6 +40,15 @@ class DiskMapper:
     surface : Surface
     boundary : (nb,) int64
         The boundary loop, in the direction of the faces.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> from conformal_uv.samples import mask
+    >>> mapper = cuv.DiskMapper(*mask(500))
+    >>> a, b = mapper.map(method="linear"), mapper.map(method="newton")
+    >>> b.conformal_energy < a.conformal_energy
+    True
     """
 
     def __init__(

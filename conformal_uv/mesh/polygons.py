@@ -22,6 +22,14 @@ class PolygonMesh:
         The vertex of every corner, face after face, in winding order.
     starts : (p + 1,) int64
         Where each face's corners begin; ``starts[-1] == k``.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> import numpy as np
+    >>> mesh = cuv.PolygonMesh(np.eye(4, 3), np.array([0, 1, 2, 3]), np.array([0, 4]))
+    >>> mesh.sizes.tolist()
+    [4]
     """
 
     V: NDArray[np.float64]

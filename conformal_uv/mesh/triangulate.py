@@ -58,6 +58,15 @@ def triangulate(mesh: PolygonMesh) -> tuple[Ints, Ints, Ints]:
     ------
     MeshError
         A polygon has fewer than 3 corners.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> import numpy as np
+    >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 1, 0]])
+    >>> F, polygon, _ = cuv.triangulate(cuv.PolygonMesh(V, np.arange(4), np.array([0, 4])))
+    >>> F.tolist(), polygon.tolist()
+    ([[0, 1, 3], [1, 2, 3]], [0, 0])
     """
     sizes = mesh.sizes
     short = np.flatnonzero(sizes < 3)

@@ -13,7 +13,14 @@ __all__ = ["face_areas", "lumped_areas", "mixed_voronoi_areas"]
 
 
 def face_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
-    """Area of each triangle, (m,), in the units of V squared."""
+    """Area of each triangle, (m,), in the units of V squared.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> cuv.face_areas([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).tolist()
+    [0.5]
+    """
     vertices = vertex_array(V)
     corners = face_array(F, len(vertices))
     vertices, unit = scaled(vertices)
@@ -38,6 +45,12 @@ def mixed_voronoi_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
     ------
     MeshError
         On arrays that are not a mesh; DegenerateFaceError on faces without area.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> cuv.mixed_voronoi_areas([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).tolist()
+    [0.25, 0.125, 0.125]
     """
     vertices = vertex_array(V)
     corners = face_array(F, len(vertices))

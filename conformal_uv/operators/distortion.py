@@ -75,6 +75,14 @@ def distortion(V: ArrayLike, F: ArrayLike, image: ArrayLike) -> Distortion:
     MeshError
         The arrays are not a mesh or the image has another number of vertices; NonFiniteError on positions that are
         NaN or infinite.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> d = cuv.distortion(V, [[0, 1, 2]], [[0, 0], [2, 0], [0, 2]])
+    >>> round(d.angle_max, 12), d.area_scale.tolist()
+    (0.0, [4.0])
     """
     vertices = vertex_array(V)
     corners = face_array(F, len(vertices))

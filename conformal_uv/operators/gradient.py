@@ -26,6 +26,14 @@ def gradient(V: ArrayLike, F: ArrayLike) -> csr_array:
     ------
     MeshError
         On arrays that are not a mesh; DegenerateFaceError on faces without area.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> G = cuv.gradient(V, [[0, 1, 2]])
+    >>> (G @ [1.0, 3.0, 1.0]).tolist()
+    [2.0, 0.0, 0.0]
     """
     vertices = vertex_array(V)
     corners = face_array(F, len(vertices))

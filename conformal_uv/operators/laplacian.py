@@ -43,6 +43,13 @@ def cotangent_laplacian(V: ArrayLike, F: ArrayLike) -> csr_array:
     ------
     MeshError
         On arrays that are not a mesh; DegenerateFaceError on faces without area.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> L = cuv.cotangent_laplacian([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> L.toarray().round(12).tolist()
+    [[1.0, -0.5, -0.5], [-0.5, 0.5, 0.0], [-0.5, 0.0, 0.5]]
     """
     vertices, _ = scaled(vertex_array(V))  # the matrix is the same in any unit
     corners = face_array(F, len(vertices))
@@ -68,6 +75,13 @@ def cotangent_laplacian_intrinsic(lengths: ArrayLike, F: ArrayLike, n: int | Non
     ------
     MeshError
         DegenerateFaceError where lengths break the triangle inequality or leave no area.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> L = cuv.cotangent_laplacian_intrinsic([[5.0, 4.0, 3.0]], [[0, 1, 2]])
+    >>> L.diagonal().round(6).tolist()
+    [1.041667, 0.666667, 0.375]
     """
     corners, count = _counted(F, n)
     opposite = np.ascontiguousarray(vertex_array(lengths).T)
@@ -92,7 +106,14 @@ def intrinsic_geometry(lengths: NDArray[np.float64]) -> TriangleGeometry:
 
 
 def uniform_laplacian(F: ArrayLike, n: int | None = None) -> csr_array:
-    """Graph Laplacian, all weights 1 (Tutte 1963), for faces F (m, 3) over n vertices."""
+    """Graph Laplacian, all weights 1 (Tutte 1963), for faces F (m, 3) over n vertices.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> cuv.uniform_laplacian([[0, 1, 2]]).diagonal().tolist()
+    [2.0, 2.0, 2.0]
+    """
     corners, count = _counted(F, n)
     edges = half_edges(corners, count)
     return laplacian_matrix(edges, uniform_weights(edges), count)

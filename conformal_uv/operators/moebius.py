@@ -22,6 +22,14 @@ class Moebius:
     ----------
     a, b, c, d : complex
         With ``a d - b c != 0``.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> import numpy as np
+    >>> moved = cuv.Moebius.to_zero(0.5j, 1.0)(np.array([0.5j, 1.0]))
+    >>> moved.round(12).tolist()
+    [0j, (1+0j)]
     """
 
     a: complex

@@ -87,6 +87,15 @@ def sphere_map(
         The numerical solution failed.
     CancelledError
         The callback returned False.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> octahedron = [[1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -2, 0], [0, 0, 3], [0, 0, -3]]
+    >>> F = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
+    >>> m = cuv.sphere_map(octahedron, F)
+    >>> m.xyz.shape, len(m.flipped)
+    ((6, 3), 0)
     """
     options = SphereOptions(
         method=Method.of("method", method),
