@@ -1,6 +1,6 @@
 """The pictures of docs/pymeshlab.md: a scan coloured by distortion, and with the checker texture.
 
-    python benchmarks/meshlab_pictures.py scan.obj docs
+python benchmarks/meshlab_pictures.py scan.obj docs
 """
 
 from __future__ import annotations

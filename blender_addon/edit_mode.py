@@ -27,9 +27,7 @@ def object_mode(context: bpy.types.Context) -> Iterator[None]:
             ob.select_set(ob in selected)
 
 
-def select_only(
-    context: bpy.types.Context, chosen: set[bpy.types.Object], active: bpy.types.Object | None
-) -> None:
+def select_only(context: bpy.types.Context, chosen: set[bpy.types.Object], active: bpy.types.Object | None) -> None:
     """Select these objects and no others, one of them active; entering Edit Mode takes in all selected ones."""
     for ob in set(context.selected_objects) - chosen:
         ob.select_set(False)

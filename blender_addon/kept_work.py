@@ -92,9 +92,7 @@ KEPT = KeptWork()
 
 def _unwrapper(surface: Surface, options: Options, callback: Callback | None, backend: str) -> Unwrapper:
     arrays = surface.arrays
-    mesh = PolygonMesh(
-        arrays.V.astype(np.float64), arrays.corners.astype(np.int64), arrays.starts.astype(np.int64)
-    )
+    mesh = PolygonMesh(arrays.V.astype(np.float64), arrays.corners.astype(np.int64), arrays.starts.astype(np.int64))
     return Unwrapper(
         None,
         mesh,

@@ -40,9 +40,10 @@ def placed(
         return _packed_by_us(tasks, options.margin)
     except MissingDependencyError:
         packed = None if options.place == "PACK" else pack_with_blender(context, tasks, options.margin)
-        remarks.append("rectangle-packer is not installed; " + (
-            "Blender packed the islands" if packed is not None else "the islands lie in a grid"
-        ))
+        remarks.append(
+            "rectangle-packer is not installed; "
+            + ("Blender packed the islands" if packed is not None else "the islands lie in a grid")
+        )
         return packed if packed is not None else _in_cells(tasks)
 
 

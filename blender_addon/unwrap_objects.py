@@ -52,9 +52,7 @@ def solve(
     return {task.surface.key(options) for task in todo}
 
 
-def unwrap_objects(
-    context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options
-) -> UnwrapResult:
+def unwrap_objects(context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options) -> UnwrapResult:
     """Unwrap the objects' meshes as the options say; see the result for what could not be done."""
     start = time.perf_counter()
     tasks = gather(context, objects, options)

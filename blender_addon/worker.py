@@ -37,9 +37,7 @@ class Worker:
         How far the thread has come.
     """
 
-    def __init__(
-        self, context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options
-    ) -> None:
+    def __init__(self, context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options) -> None:
         self._tasks = gather(context, objects, options)
         self._options = options
         self._kept = KEPT.fork()

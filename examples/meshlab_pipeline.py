@@ -1,7 +1,7 @@
 """A pymeshlab pipeline with the filter in it: clean, decimate, map, colour by distortion, save.
 
-    python examples/meshlab_pipeline.py scan.obj result.ply
-    python examples/meshlab_pipeline.py                        # makes a surface, leaves meshlab_pipeline.ply
+python examples/meshlab_pipeline.py scan.obj result.ply
+python examples/meshlab_pipeline.py                        # makes a surface, leaves meshlab_pipeline.ply
 """
 
 import sys

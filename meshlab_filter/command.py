@@ -111,9 +111,7 @@ def _checked(
     return targets
 
 
-def _convert_all(
-    sources: list[Path], targets: list[Path], conversion: Conversion, quiet: bool
-) -> list[dict[str, Any]]:
+def _convert_all(sources: list[Path], targets: list[Path], conversion: Conversion, quiet: bool) -> list[dict[str, Any]]:
     """Map each; its numbers, or its error."""
     told = []
     for source, target in zip(sources, targets, strict=True):

@@ -159,7 +159,6 @@ def map_current_mesh(
     return Mapped(result, numbers)
 
 
-
 def _check_mapped(result: Unwrapped) -> None:
     """Raise where no chart was mapped; log the reasons where some were not."""
     failure = result.failure()

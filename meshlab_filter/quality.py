@@ -14,7 +14,6 @@ from .texcoords import Texcoords
 __all__ = ["Quality", "distortion_fields", "map_numbers", "polygon_quality"]
 
 
-
 class Quality(Choice):
     """Per-face scalar to write."""
 

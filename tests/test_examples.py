@@ -13,9 +13,7 @@ import pytest
 import conformal_uv as cuv
 
 EXAMPLES = sorted((Path(__file__).resolve().parent.parent / "examples" / "core").glob("*.py"))
-FUNCTIONS = [
-    name for name in cuv.__all__ if getattr(getattr(cuv, name), "__module__", "").startswith("conformal_uv")
-]
+FUNCTIONS = [name for name in cuv.__all__ if getattr(getattr(cuv, name), "__module__", "").startswith("conformal_uv")]
 
 
 def test_there_are_examples() -> None:
@@ -29,10 +27,30 @@ def test_example(path: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ca
     assert capsys.readouterr().out
 
 
-@pytest.mark.parametrize("name", ["disk_map", "unwrap", "sphere_map", "distortion", "gradient", "face_areas",
-                                  "mixed_voronoi_areas", "cotangent_laplacian", "cotangent_laplacian_intrinsic",
-                                  "uniform_laplacian", "DiskMapper", "Unwrapper", "Moebius", "unwrap_numbers",
-                                  "distortion_numbers", "pack_together", "PolygonMesh", "triangulate", "Remedy"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "disk_map",
+        "unwrap",
+        "sphere_map",
+        "distortion",
+        "gradient",
+        "face_areas",
+        "mixed_voronoi_areas",
+        "cotangent_laplacian",
+        "cotangent_laplacian_intrinsic",
+        "uniform_laplacian",
+        "DiskMapper",
+        "Unwrapper",
+        "Moebius",
+        "unwrap_numbers",
+        "distortion_numbers",
+        "pack_together",
+        "PolygonMesh",
+        "triangulate",
+        "Remedy",
+    ],
+)
 def test_examples_in_docstrings(name: str) -> None:
     item = getattr(cuv, name)
     module = importlib.import_module(item.__module__)

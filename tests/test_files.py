@@ -77,8 +77,11 @@ def per_corner(mesh, seed=1):
 
 
 def same_mesh(a, b):
-    return (np.array_equal(a.V, b.V, equal_nan=True) and np.array_equal(a.corners, b.corners)
-            and np.array_equal(a.starts, b.starts))
+    return (
+        np.array_equal(a.V, b.V, equal_nan=True)
+        and np.array_equal(a.corners, b.corners)
+        and np.array_equal(a.starts, b.starts)
+    )
 
 
 def without_texture(data):
@@ -89,8 +92,12 @@ def without_texture(data):
         vertex, normal = found.groups()
         return vertex + (b"/" + normal if normal else b"")
 
-    return [re.sub(rb"(\d+)/-?\d*(/-?\d+)?", corner, line)
-            if line.lstrip()[:2] in (b"f ", b"l ") or line.startswith(b"  -") else line for line in lines]
+    return [
+        re.sub(rb"(\d+)/-?\d*(/-?\d+)?", corner, line)
+        if line.lstrip()[:2] in (b"f ", b"l ") or line.startswith(b"  -")
+        else line
+        for line in lines
+    ]
 
 
 # --- OBJ, in
@@ -140,28 +147,31 @@ def test_obj_nan_vertices_pass(tmp_path):
 V3 = b"v 0 0 0\nv 1 0 0\nv 1 1 0\n"
 
 
-@pytest.mark.parametrize(("data", "words"), [
-    (V3 + b"f 1 2 4\n", ["line 4", "does not exist"]),
-    (V3 + b"f 1 2 3\nf 0 1 2\n", ["line 5", "does not exist"]),
-    (V3 + b"# x\n\nf 1 2 -4\n", ["line 6", "does not exist"]),
-    (V3 + b"f 1/1 2/1 3/1\n", ["line 4", "texture index"]),
-    (V3 + b"vt 0 0\nf 1/1 2/-2 3/1\n", ["line 5", "texture index"]),
-    (V3 + b"f 1 2 3\nf 1 2\n", ["line 5", "2 corners"]),
-    (V3 + b"f 1 2 x\n", ["line 4", "f 1 2 x"]),
-    (V3 + b"f 1//2//3 4 5//6\n", ["line 4"]),
-    (V3 + b"f 1 2 --3\n", ["line 4"]),
-    (V3 + b"f 1 2 3-\n", ["line 4"]),
-    (V3 + b"f 1/1/1/1 2 3\n", ["line 4"]),
-    (V3 + b"f 1 2 /3\n", ["line 4"]),
-    (V3 + b"f 1 2 1_0\n", ["line 4"]),
-    (V3 + b"f 1 2 99999999999999999999999\n", ["line 4"]),
-    (b"v 0 0 0\nv 1 0\n" + V3 + b"f 1 2 3\n", ["line 2", "v 1 0"]),
-    (V3 + b"v 1 0 1_0\nf 1 2 3\n", ["line 4"]),
-    (V3 + b"v 1 0 zero\nf 1 2 3\n", ["line 4", "not a number"]),
-    (V3, ["no faces"]),
-    (b"", ["no faces"]),
-    (b"\x00\xff" * 50, ["no faces"]),
-])
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (V3 + b"f 1 2 4\n", ["line 4", "does not exist"]),
+        (V3 + b"f 1 2 3\nf 0 1 2\n", ["line 5", "does not exist"]),
+        (V3 + b"# x\n\nf 1 2 -4\n", ["line 6", "does not exist"]),
+        (V3 + b"f 1/1 2/1 3/1\n", ["line 4", "texture index"]),
+        (V3 + b"vt 0 0\nf 1/1 2/-2 3/1\n", ["line 5", "texture index"]),
+        (V3 + b"f 1 2 3\nf 1 2\n", ["line 5", "2 corners"]),
+        (V3 + b"f 1 2 x\n", ["line 4", "f 1 2 x"]),
+        (V3 + b"f 1//2//3 4 5//6\n", ["line 4"]),
+        (V3 + b"f 1 2 --3\n", ["line 4"]),
+        (V3 + b"f 1 2 3-\n", ["line 4"]),
+        (V3 + b"f 1/1/1/1 2 3\n", ["line 4"]),
+        (V3 + b"f 1 2 /3\n", ["line 4"]),
+        (V3 + b"f 1 2 1_0\n", ["line 4"]),
+        (V3 + b"f 1 2 99999999999999999999999\n", ["line 4"]),
+        (b"v 0 0 0\nv 1 0\n" + V3 + b"f 1 2 3\n", ["line 2", "v 1 0"]),
+        (V3 + b"v 1 0 1_0\nf 1 2 3\n", ["line 4"]),
+        (V3 + b"v 1 0 zero\nf 1 2 3\n", ["line 4", "not a number"]),
+        (V3, ["no faces"]),
+        (b"", ["no faces"]),
+        (b"\x00\xff" * 50, ["no faces"]),
+    ],
+)
 def test_obj_refusals_name_the_line(tmp_path, data, words):
     path = saved(tmp_path, "a.obj", data)
     with pytest.raises(FileFormatError) as caught:
@@ -190,11 +200,13 @@ def test_obj_keeps_every_other_byte(tmp_path, newline):
 def test_obj_text_by_hand(tmp_path):
     data = V3 + b"v 0 1 0\nvn 0 0 1\nusemtl a\nf 1//1  2//1 3//1 # first\nf 1/ 3 -1\ns 1\n"
     source = read_mesh(saved(tmp_path, "a.obj", data))
-    write_mesh(tmp_path / "b.obj", source,
-               corner_uv=np.array([[0, 0], [0.1, 0], [1, 1], [0, 0], [1, 1], [1e-7, 1 / 3]]))
+    write_mesh(
+        tmp_path / "b.obj", source, corner_uv=np.array([[0, 0], [0.1, 0], [1, 1], [0, 0], [1, 1], [1e-7, 1 / 3]])
+    )
     assert (tmp_path / "b.obj").read_bytes() == V3 + (
         b"v 0 1 0\nvn 0 0 1\nusemtl a\nvt 0.0 0.0\nvt 0.1 0.0\nvt 1.0 1.0\nvt 1e-07 0.3333333333333333\n"
-        b"f 1/1/1  2/2/1 3/3/1 # first\nf 1/1 3/3 -1/4\ns 1\n")
+        b"f 1/1/1  2/2/1 3/3/1 # first\nf 1/1 3/3 -1/4\ns 1\n"
+    )
 
 
 def test_obj_seam_corners_get_their_own_vt(tmp_path):
@@ -230,13 +242,16 @@ def test_obj_unmapped_faces_without_texture_stay_without(tmp_path):
     uv[6:] = [[0, 0], [1, 1], [0, 1]]
     write_mesh(tmp_path / "b.obj", source, corner_uv=uv)
     assert (tmp_path / "b.obj").read_bytes() == V3 + (
-        b"v 0 1 0\nvt 0.0 0.0\nvt 1.0 0.0\nvt 1.0 1.0\nvt 0.0 1.0\nf 1/1 2/2 3/3\nf 1//1 3//1 4//1\nf 1/1 3/3 4/4\n")
+        b"v 0 1 0\nvt 0.0 0.0\nvt 1.0 0.0\nvt 1.0 1.0\nvt 0.0 1.0\nf 1/1 2/2 3/3\nf 1//1 3//1 4//1\nf 1/1 3/3 4/4\n"
+    )
 
 
 def test_obj_unmapped_faces_keep_their_texture(tmp_path):
     """Old vt lines before and after the new ones, relative and absolute, and a polyline's."""
-    data = (b"v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0 0.5\nvt 0.5 0\nvt 0.5 0.5\nf 1/1 2/2 3/3\n"
-            b"v 0 1 0\nvt 0.25 0.75\nf 1/-4/7 3/3/7 4/-1/7\nf 1/1 3/3 -1/4\nl 1/4 2/-2\n")
+    data = (
+        b"v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0 0.5\nvt 0.5 0\nvt 0.5 0.5\nf 1/1 2/2 3/3\n"
+        b"v 0 1 0\nvt 0.25 0.75\nf 1/-4/7 3/3/7 4/-1/7\nf 1/1 3/3 -1/4\nl 1/4 2/-2\n"
+    )
     source = read_mesh(saved(tmp_path, "a.obj", data))
     uv = np.full((9, 2), NAN)
     uv[:3] = [[0.125, 0], [1, 0], [1, 1]]
@@ -244,9 +259,11 @@ def test_obj_unmapped_faces_keep_their_texture(tmp_path):
     assert (tmp_path / "b.obj").read_bytes() == (
         b"v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0 0.5\nvt 0.5 0\nvt 0.5 0.5\n"
         b"vt 0.125 0.0\nvt 1.0 0.0\nvt 1.0 1.0\nf 1/4 2/5 3/6\n"
-        b"v 0 1 0\nvt 0.25 0.75\nf 1/1/7 3/3/7 4/7/7\nf 1/1 3/3 -1/7\nl 1/7 2/3\n")
-    np.testing.assert_array_equal(read_mesh(tmp_path / "b.obj").corner_uv,
-                                  np.concatenate([uv[:3], source.corner_uv[3:]]))
+        b"v 0 1 0\nvt 0.25 0.75\nf 1/1/7 3/3/7 4/7/7\nf 1/1 3/3 -1/7\nl 1/7 2/3\n"
+    )
+    np.testing.assert_array_equal(
+        read_mesh(tmp_path / "b.obj").corner_uv, np.concatenate([uv[:3], source.corner_uv[3:]])
+    )
 
 
 def test_obj_nothing_mapped_changes_nothing(tmp_path):
@@ -293,8 +310,10 @@ def ply_bytes(mesh, *, text=False, order="<", vertex_uv=None, wedge=None, extra=
             face["flags"][f] = f - 3
         if wedge:
             face["texcoord"][f] = np.arange(2 * mesh.sizes[f], dtype="f4") + f
-    elements = [plyfile.PlyElement.describe(vertex, "vertex"),
-                plyfile.PlyElement.describe(face, "face", val_types={"texcoord": "f4", index: "i4"})]
+    elements = [
+        plyfile.PlyElement.describe(vertex, "vertex"),
+        plyfile.PlyElement.describe(face, "face", val_types={"texcoord": "f4", index: "i4"}),
+    ]
     if extra:
         edge = np.array([(0, 1), (2, 3)], [("vertex1", "i4"), ("vertex2", "i4")])
         elements.append(plyfile.PlyElement.describe(edge, "edge"))
@@ -358,7 +377,7 @@ def test_ply_to_ply_per_vertex(tmp_path, stored, make, had):
     write_mesh(tmp_path / "b.ply", source, corner_uv=uv)
     written = (tmp_path / "b.ply").read_bytes()
     check_rest_kept(data, written)
-    header = written[:written.index(b"end_header")]
+    header = written[: written.index(b"end_header")]
     for name in (b"s", b"t", b"texture_u", b"texture_v"):  # MeshLab reads texture_u, others s
         assert header.count(b"property double " + name + b"\n") == header.count(b" " + name + b"\n") == 1
     assert b"texcoord" not in header
@@ -377,11 +396,11 @@ def test_ply_to_ply_per_corner(tmp_path, stored, make, unmapped):
     source = read_mesh(saved(tmp_path, "a.ply", data))
     uv = per_corner(source.mesh)
     if unmapped:
-        uv[:source.mesh.starts[2]] = NAN
+        uv[: source.mesh.starts[2]] = NAN
     write_mesh(tmp_path / "b.ply", source, corner_uv=uv)
     written = (tmp_path / "b.ply").read_bytes()
     check_rest_kept(data, written)
-    header = written[:written.index(b"end_header")]
+    header = written[: written.index(b"end_header")]
     assert b"property list uchar float texcoord\n" in header and b" s\n" not in header
     again = read_mesh(tmp_path / "b.ply")
     assert same_mesh(again.mesh, source.mesh)
@@ -441,8 +460,15 @@ OFF = b"""OFF # a pyramid
 """
 
 
-@pytest.mark.parametrize("data", [OFF, OFF.replace(b"OFF # a pyramid\n", b"OFF "), OFF.replace(b"\n", b"\r\n"),
-                                  OFF.replace(b"OFF", b"COFF").replace(b" 0\n", b" 0 1 1 1 1\n", 1)])
+@pytest.mark.parametrize(
+    "data",
+    [
+        OFF,
+        OFF.replace(b"OFF # a pyramid\n", b"OFF "),
+        OFF.replace(b"\n", b"\r\n"),
+        OFF.replace(b"OFF", b"COFF").replace(b" 0\n", b" 0 1 1 1 1\n", 1),
+    ],
+)
 def test_off_by_hand(tmp_path, data):
     found = read_mesh(saved(tmp_path, "a.off", data))
     assert found.mesh.V.tolist() == [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1.5]]
@@ -451,12 +477,23 @@ def test_off_by_hand(tmp_path, data):
     assert found.corner_uv is None
 
 
-@pytest.mark.parametrize(("old", "new", "word"), [
-    (b"5 5 0", b"5 6 0", "line 2"), (b"5 5 0", b"5 99999999999999 0", "line 2"), (b"5 5 0", b"5.5 5 0", "line 2"),
-    (b"4 3 2 1 0", b"4 3 2 1", "line 9"), (b"4 3 2 1 0", b"4 3 2 1 5", "line 9"), (b"1 1 0", b"1 1 zero", "line 6"),
-    (b"3 2 3 4", b"3 2 3 1_0", "line 12"), (b"3 2 3 4", b"2 2 3", "line 12"), (b"3 2 3 4", b"-1 2 3", "line 12"),
-    (b"3 2 3 4", b"3 2 3 99999999999999999999", "line 12"), (b"OFF", b"FOO", "not a text OFF"), (OFF, b"OFF", "number"),
-])
+@pytest.mark.parametrize(
+    ("old", "new", "word"),
+    [
+        (b"5 5 0", b"5 6 0", "line 2"),
+        (b"5 5 0", b"5 99999999999999 0", "line 2"),
+        (b"5 5 0", b"5.5 5 0", "line 2"),
+        (b"4 3 2 1 0", b"4 3 2 1", "line 9"),
+        (b"4 3 2 1 0", b"4 3 2 1 5", "line 9"),
+        (b"1 1 0", b"1 1 zero", "line 6"),
+        (b"3 2 3 4", b"3 2 3 1_0", "line 12"),
+        (b"3 2 3 4", b"2 2 3", "line 12"),
+        (b"3 2 3 4", b"-1 2 3", "line 12"),
+        (b"3 2 3 4", b"3 2 3 99999999999999999999", "line 12"),
+        (b"OFF", b"FOO", "not a text OFF"),
+        (OFF, b"OFF", "number"),
+    ],
+)
 def test_off_refusals(tmp_path, old, new, word):
     with pytest.raises(FileFormatError, match=word):
         read_mesh(saved(tmp_path, "a.off", OFF.replace(old, new, 1)))
@@ -469,15 +506,25 @@ def stl_bytes(T):
 
 
 def stl_text(T):
-    facets = ["facet normal 0 0 0\nouter loop\n" + "".join("vertex {} {} {}\n".format(*p) for p in t.tolist())
-              + "endloop\nendfacet\n" for t in T]
+    facets = [
+        "facet normal 0 0 0\nouter loop\n"
+        + "".join("vertex {} {} {}\n".format(*p) for p in t.tolist())
+        + "endloop\nendfacet\n"
+        for t in T
+    ]
     return ("solid thing\n" + "".join(facets) + "endsolid thing\n").encode()
 
 
 @pytest.mark.parametrize("written", [stl_bytes, stl_text])
 def test_stl_is_welded_exactly(tmp_path, written):
-    T = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[-0.0, 0, 0], [1, 1, 0], [0, 1, 0]],
-                  [[0, 1, 0], [1, 1, 0], [0, 2, np.float32(1e-7)]], [[0, 2, 0], [1, 1, 0], [0, 3, 0]]])
+    T = np.array(
+        [
+            [[0, 0, 0], [1, 0, 0], [1, 1, 0]],
+            [[-0.0, 0, 0], [1, 1, 0], [0, 1, 0]],
+            [[0, 1, 0], [1, 1, 0], [0, 2, np.float32(1e-7)]],
+            [[0, 2, 0], [1, 1, 0], [0, 3, 0]],
+        ]
+    )
     found = read_mesh(saved(tmp_path, "a.stl", written(T))).mesh
     assert found.corners.tolist() == [0, 1, 2, 0, 2, 3, 3, 2, 4, 5, 2, 6]
     np.testing.assert_array_equal(found.V[found.corners], T.reshape(-1, 3))
@@ -524,14 +571,21 @@ def test_npz_of_others(tmp_path):
     np.testing.assert_array_equal(found.corner_uv, uv[mesh.corners])
 
 
-@pytest.mark.parametrize(("arrays", "word"), [
-    (dict(F=[[0, 1, 2]]), "'V'"), (dict(V=np.eye(3)), "'corners'"), (dict(V=np.eye(2), F=[[0, 1, 1]]), "shape"),
-    (dict(V=np.eye(3), F=[[0., 1, 2]]), "integers"), (dict(V=np.eye(3), F=[[0, 1, 3]]), "face 0"),
-    (dict(V=np.eye(3), corners=[0, 1, 2], starts=[0, 2]), "starts"),
-    (dict(V=np.eye(3), corners=[0, 1, 2], starts=[0, 5, 3]), "starts"),
-    (dict(V=np.eye(3), F=[[0, 1, 2]], uv=np.zeros((2, 2))), "rows"),
-    (dict(V=np.eye(3) * 1j, F=[[0, 1, 2]]), "real"), (dict(V=np.array([None]), F=[[0, 1, 2]]), "real"),
-])
+@pytest.mark.parametrize(
+    ("arrays", "word"),
+    [
+        (dict(F=[[0, 1, 2]]), "'V'"),
+        (dict(V=np.eye(3)), "'corners'"),
+        (dict(V=np.eye(2), F=[[0, 1, 1]]), "shape"),
+        (dict(V=np.eye(3), F=[[0.0, 1, 2]]), "integers"),
+        (dict(V=np.eye(3), F=[[0, 1, 3]]), "face 0"),
+        (dict(V=np.eye(3), corners=[0, 1, 2], starts=[0, 2]), "starts"),
+        (dict(V=np.eye(3), corners=[0, 1, 2], starts=[0, 5, 3]), "starts"),
+        (dict(V=np.eye(3), F=[[0, 1, 2]], uv=np.zeros((2, 2))), "rows"),
+        (dict(V=np.eye(3) * 1j, F=[[0, 1, 2]]), "real"),
+        (dict(V=np.array([None]), F=[[0, 1, 2]]), "real"),
+    ],
+)
 def test_npz_refusals(tmp_path, arrays, word):
     np.savez(tmp_path / "a.npz", **arrays)
     with pytest.raises(FileFormatError, match=word):
@@ -549,7 +603,7 @@ def test_unmapped_faces_keep_what_the_source_had(tmp_path, first, second):
     write_mesh(tmp_path / f"a{first}", MeshFile(Path("x"), mesh), corner_uv=old)
     source = read_mesh(tmp_path / f"a{first}")
     new = per_corner(mesh, 9).astype(np.float32).astype(np.float64)
-    new[mesh.starts[3]:mesh.starts[5]] = NAN
+    new[mesh.starts[3] : mesh.starts[5]] = NAN
     write_mesh(tmp_path / f"b{second}", source, corner_uv=new)
     np.testing.assert_array_equal(read_mesh(tmp_path / f"b{second}").corner_uv, np.where(np.isnan(new), old, new))
 
@@ -558,7 +612,7 @@ def test_unmapped_faces_keep_what_the_source_had(tmp_path, first, second):
 def test_unmapped_faces_of_a_source_without_uv(tmp_path, suffix):
     mesh = grid()
     uv = per_corner(mesh).astype(np.float32).astype(np.float64)
-    uv[mesh.starts[3]:mesh.starts[5]] = NAN
+    uv[mesh.starts[3] : mesh.starts[5]] = NAN
     write_mesh(tmp_path / f"a{suffix}", MeshFile(Path("x"), mesh), corner_uv=uv)
     np.testing.assert_array_equal(read_mesh(tmp_path / f"a{suffix}").corner_uv, uv)
 
@@ -593,8 +647,12 @@ def test_suffixes_folders_and_missing_files(tmp_path):
         (tmp_path / f"folder{suffix}").mkdir()
         with pytest.raises(FileFormatError, match="can not be read"):
             read_mesh(tmp_path / f"folder{suffix}")
-    for name, word in [("a.off", r"\.obj, \.ply, \.npz"), ("none/a.obj", "does not exist"), ("folder.obj", "folder"),
-                       ("a", "not written")]:
+    for name, word in [
+        ("a.off", r"\.obj, \.ply, \.npz"),
+        ("none/a.obj", "does not exist"),
+        ("folder.obj", "folder"),
+        ("a", "not written"),
+    ]:
         with pytest.raises(FileFormatError, match=word):
             check_writable(tmp_path / name)
     check_writable(tmp_path / "new.PLY")
@@ -692,7 +750,7 @@ def damaged(data, rng):
     if kind == 2:
         digits = [m.start() for m in re.finditer(rb"\d", data)]
         i = digits[rng.integers(len(digits))]
-        return data[:i] + b"9" * int(rng.integers(1, 25)) + data[i + 1:]
+        return data[:i] + b"9" * int(rng.integers(1, 25)) + data[i + 1 :]
     to = min(to, at + 40)
     return data[:at] + data[to:] if kind == 3 else data[:to] + data[at:]
 

@@ -66,13 +66,16 @@ def dirichlet_problem(V: NDArray, F: NDArray, backend: str = "auto") -> Dirichle
 def turned_into_space(xy: NDArray) -> NDArray:
     """Plane points put into a slanted plane by a rotation (Rodrigues' matrix of the quaternion 1, 2, -1, 3)."""
     w, x, y, z = np.array([1.0, 2.0, -1.0, 3.0]) / np.sqrt(15.0)
-    return xy @ np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    ).T
+    return (
+        xy
+        @ np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        ).T
+    )
 
 
 # --- Laplacians ---------------------------------------------------------------------------------------------
@@ -162,9 +165,7 @@ def test_uniform_laplacian_is_degree_minus_adjacency() -> None:
     for a, b, c in F:
         for i, j in ((a, b), (b, c), (c, a)):
             adjacency[i, j] = adjacency[j, i] = 1.0
-    np.testing.assert_array_equal(
-        cuv.uniform_laplacian(F).toarray(), np.diag(adjacency.sum(axis=1)) - adjacency
-    )
+    np.testing.assert_array_equal(cuv.uniform_laplacian(F).toarray(), np.diag(adjacency.sum(axis=1)) - adjacency)
     assert cuv.uniform_laplacian(F, n + 2).shape == (n + 2, n + 2)
 
 

@@ -61,7 +61,10 @@ def test_the_command_and_the_filter_show_these_numbers(tmp_path) -> None:
     told = json.loads((tmp_path / "n.json").read_text())
     d = expected.distortion
     assert told["angle_error_degrees"] == {
-        "mean": d.angle_mean, "rms": d.angle_rms, "sd": d.angle_sd, "max": d.angle_max
+        "mean": d.angle_mean,
+        "rms": d.angle_rms,
+        "sd": d.angle_sd,
+        "max": d.angle_max,
     }
     assert told["area_ratio"] == d.area_ratio
     ms = pymeshlab.MeshSet()

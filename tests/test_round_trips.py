@@ -115,9 +115,7 @@ def sorted_corners(corners: Corners) -> np.ndarray:
     return rows[np.lexsort(rows.T)]
 
 
-READERS: list[Callable[[Path], Corners]] = [
-    by_ourselves, by_trimesh, by_meshio, by_open3d, by_pymeshlab, by_blender
-]
+READERS: list[Callable[[Path], Corners]] = [by_ourselves, by_trimesh, by_meshio, by_open3d, by_pymeshlab, by_blender]
 
 
 @pytest.mark.parametrize("reader", READERS)
@@ -159,6 +157,9 @@ def test_a_mesh_without_uvs_has_no_empty_lists(tmp_path: Path, reader: str) -> N
     assert b"texcoord" not in path.read_bytes().partition(b"end_header")[0]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        found = library.load_mesh(path, process=False).faces if reader == "trimesh" else (
-            library.read(path).cells_dict["triangle"])
+        found = (
+            library.load_mesh(path, process=False).faces
+            if reader == "trimesh"
+            else (library.read(path).cells_dict["triangle"])
+        )
     np.testing.assert_array_equal(found, F)

@@ -47,8 +47,12 @@ def test_whatever_a_factorization_raises_is_a_solver_error(
         raise kind("no")
 
     V, F = mask(300)
-    for module, name, backend in ((cholmod, "symbolic", "cholmod"), (cholmod, "numeric", "cholmod"),
-                                  (cholmod, "solve", "cholmod"), (cholesky, "splu", "superlu")):
+    for module, name, backend in (
+        (cholmod, "symbolic", "cholmod"),
+        (cholmod, "numeric", "cholmod"),
+        (cholmod, "solve", "cholmod"),
+        (cholesky, "splu", "superlu"),
+    ):
         with monkeypatch.context() as patch:
             patch.setattr(module, name, failing)
             with pytest.raises(cuv.SolverError):

@@ -47,8 +47,7 @@ def spiral(turns, steps):
 
 
 COMB = np.array([[0, 0], [7, 0], [7, 5], [6, 1], [5, 5], [4, 1], [3, 5], [2, 1], [1, 5]], float)
-CROSS = np.array([[1, 0], [2, 0], [2, 1], [3, 1], [3, 2], [2, 2],
-                  [2, 3], [1, 3], [1, 2], [0, 2], [0, 1], [1, 1]])
+CROSS = np.array([[1, 0], [2, 0], [2, 1], [3, 1], [3, 2], [2, 2], [2, 3], [1, 3], [1, 2], [0, 2], [0, 1], [1, 1]])
 FLAT_SIDES = np.array([[0, 0], [1, 0], [2, 0], [3, 0], [3, 1], [3, 3], [2, 3], [0, 3], [0, 2], [0, 1]])
 KEYHOLE = np.array([[0, 0], [4, 0], [4, 4], [0, 4], [0, 0], [1, 1], [1, 3], [3, 3], [3, 1], [1, 1]])
 
@@ -117,8 +116,13 @@ def test_quad_with_a_flat_corner_keeps_both_areas():
         np.testing.assert_allclose(signed_areas(mesh.V, F), [4.5, 4.5], rtol=1e-14)
 
 
-SHAPES = {"comb": COMB, "cross": CROSS, "flat sides": FLAT_SIDES, "spiral": spiral(3, 40),
-          **{f"star {n}": star(n, n) for n in (5, 6, 7, 12, 40, 150)}}
+SHAPES = {
+    "comb": COMB,
+    "cross": CROSS,
+    "flat sides": FLAT_SIDES,
+    "spiral": spiral(3, 40),
+    **{f"star {n}": star(n, n) for n in (5, 6, 7, 12, 40, 150)},
+}
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -169,24 +173,30 @@ def test_first_ear_is_the_one_with_the_widest_smallest_angle(seed):
 
     def smallest_angle(k):
         a, b, c = outline[[k - 1, k, (k + 1) % 7]]
-        return min(np.arccos((q - p) @ (r - p) / np.linalg.norm(q - p) / np.linalg.norm(r - p))
-                   for p, q, r in ((a, b, c), (b, c, a), (c, a, b)))
+        return min(
+            np.arccos((q - p) @ (r - p) / np.linalg.norm(q - p) / np.linalg.norm(r - p))
+            for p, q, r in ((a, b, c), (b, c, a), (c, a, b))
+        )
 
     best = max(range(7), key=smallest_angle)
     F, _, _ = check_contract(polygons(outline))
     assert F[0].tolist() == [(best - 1) % 7, best, (best + 1) % 7]
 
 
-@pytest.mark.parametrize("outline", [
-    np.zeros((6, 2)),
-    np.c_[np.arange(7), np.arange(7)],
-    np.array([[0, 0], [1, 1], [1, 0], [0, 1], [0.5, 3], [2, 2]]),
-    np.full((5, 2), np.nan),
-    np.array([[0, 0], [np.inf, 1], [1, 0], [0, 1], [0.5, 3]]),
-], ids=["point", "line", "self-crossing", "nan", "inf"])
+@pytest.mark.parametrize(
+    "outline",
+    [
+        np.zeros((6, 2)),
+        np.c_[np.arange(7), np.arange(7)],
+        np.array([[0, 0], [1, 1], [1, 0], [0, 1], [0.5, 3], [2, 2]]),
+        np.full((5, 2), np.nan),
+        np.array([[0, 0], [np.inf, 1], [1, 0], [0, 1], [0.5, 3]]),
+    ],
+    ids=["point", "line", "self-crossing", "nan", "inf"],
+)
 def test_degenerate_polygons_still_end(outline):
     F, _, _ = check_contract(polygons(outline, COMB))
-    first = F[:len(outline) - 2]
+    first = F[: len(outline) - 2]
     assert (np.sort(first, axis=1)[:, 1:] > np.sort(first, axis=1)[:, :-1]).all()
     assert check_exact_cover(first) == {(k, (k + 1) % len(outline)) for k in range(len(outline))}
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 __all__ = ["VERSION", "manifest"]
 
-VERSION: str = runpy.run_path(
-    str(Path(__file__).resolve().parent.parent / "conformal_uv" / "_version.py")
-)["__version__"]
+VERSION: str = runpy.run_path(str(Path(__file__).resolve().parent.parent / "conformal_uv" / "_version.py"))[
+    "__version__"
+]
 
 HEAD = """\
 schema_version = "1.0.0"

@@ -35,9 +35,7 @@ def module(name: str, *arguments: object) -> str:
     return done.stdout
 
 
-def child(
-    python: str, job: dict[str, Any], file: Path, time_limit: float, memory_limit: float = 0.0
-) -> dict[str, Any]:
+def child(python: str, job: dict[str, Any], file: Path, time_limit: float, memory_limit: float = 0.0) -> dict[str, Any]:
     """Run the measured process; what it told, or how it ended. The limits are of seconds and of gigabytes, or 0."""
     told = Path(job["told"])
     told.unlink(missing_ok=True)

@@ -69,13 +69,21 @@ def note_unusable_polygons(faults: Faults, seamed: SeamedMesh, finite: Bools, ch
     nowhere = np.flatnonzero(~finite[corners]) if not finite.all() else np.empty(0, dtype=np.int64)
     faults.note(corners[nowhere], chart[polygon[nowhere]], _nowhere)
     repeating = _repeating(seamed)
-    faults.note(name[repeating], chart[repeating], lambda own: DegenerateFaceError(
-        f"{len(own)} faces repeat a vertex: faces {listed(own)}. Remove the repeated corners.", own
-    ))
+    faults.note(
+        name[repeating],
+        chart[repeating],
+        lambda own: DegenerateFaceError(
+            f"{len(own)} faces repeat a vertex: faces {listed(own)}. Remove the repeated corners.", own
+        ),
+    )
     twice = _standing_twice(seamed)
-    faults.note(name[twice], chart[twice], lambda own: DuplicateFaceError(
-        f"{len(own)} faces have the same edges as another: faces {listed(own)}. Keep one of each.", own
-    ))
+    faults.note(
+        name[twice],
+        chart[twice],
+        lambda own: DuplicateFaceError(
+            f"{len(own)} faces have the same edges as another: faces {listed(own)}. Keep one of each.", own
+        ),
+    )
 
 
 def note_crowded_edges(faults: Faults, seamed: SeamedMesh, chart: Ints, name: Ints) -> None:

@@ -76,9 +76,7 @@ def _wound(
         return seamed, same
     against = np.flatnonzero(sign < 0)
     for number, own in by_chart(name[against], chart[against]):
-        notes.setdefault(number, []).append(
-            f"{len(own)} faces wound against the rest were turned: faces {listed(own)}"
-        )
+        notes.setdefault(number, []).append(f"{len(own)} faces wound against the rest were turned: faces {listed(own)}")
     for number in np.unique(chart[sign == 0]):
         notes.setdefault(int(number), []).append("one-sided: cut where the two windings meet")
     if (sign == 0).any():

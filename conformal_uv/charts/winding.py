@@ -79,9 +79,7 @@ def untwisted(seamed: SeamedMesh, sign: Signs, chart: Ints) -> tuple[SeamedMesh,
     return replace(seamed, twin=twin), filled
 
 
-def _crosses(
-    f: Ints, g: Ints, crossed: NDArray[np.bool_], child: Ints, parent: Ints, p: int
-) -> NDArray[np.bool_]:
+def _crosses(f: Ints, g: Ints, crossed: NDArray[np.bool_], child: Ints, parent: Ints, p: int) -> NDArray[np.bool_]:
     """Whether a side between each child and its parent disagrees, (p,); False at roots.
 
     Where several sides join the two, the last of them counts.
@@ -111,8 +109,6 @@ def turned(seamed: SeamedMesh, sign: Signs) -> tuple[SeamedMesh, Ints]:
         old = twin[side]
         return np.where(old >= 0, place[np.maximum(old, 0)], old)
 
-    turned_sides = PolygonSides(
-        sides.follow, sides.polygon, sides.key, sides.edge[side], renumbered(sides.twin)
-    )
+    turned_sides = PolygonSides(sides.follow, sides.polygon, sides.key, sides.edge[side], renumbered(sides.twin))
     turned_mesh = PolygonMesh(mesh.V, mesh.corners[corner], mesh.starts)
     return SeamedMesh(turned_mesh, turned_sides, seamed.seam, renumbered(seamed.twin)), corner

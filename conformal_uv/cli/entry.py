@@ -21,9 +21,7 @@ def main() -> None:
 def _loaded() -> Callable[[], None]:
     missing = [name for name in ("typer", "rich") if importlib.util.find_spec(name) is None]
     if missing:
-        sys.stderr.write(
-            f'conformal-uv: {" and ".join(missing)} not installed; run: pip install "conformal-uv[cli]"\n'
-        )
+        sys.stderr.write(f'conformal-uv: {" and ".join(missing)} not installed; run: pip install "conformal-uv[cli]"\n')
         raise SystemExit(1)
     from .app import app
 

@@ -39,16 +39,12 @@ def sphere(
         str | None,
         typer.Option(metavar="A,B,C", help="Vertices (from 0) sent to the south pole, (1, 0, 0) and the north pole."),
     ] = None,
-    boundary: Annotated[
-        SphereBoundary, typer.Option(help="Boundary loops; a cap is virtual.")
-    ] = SphereBoundary.REFUSE,
+    boundary: Annotated[SphereBoundary, typer.Option(help="Boundary loops; a cap is virtual.")] = SphereBoundary.REFUSE,
     laplacian: Annotated[Laplacian, typer.Option(help="Weights.")] = Laplacian.AUTO,
     repair: Annotated[Repair, typer.Option(help="Inverted triangles.")] = Repair.AUTO,
     backend: Annotated[Backend, typer.Option(help="Factorization library.")] = Backend.AUTO,
     uv: Annotated[SphereLayout, typer.Option(help="UVs to write.")] = SphereLayout.NONE,
-    split: Annotated[
-        bool, typer.Option("--split", help="Write vertices split at the seams of the UVs.")
-    ] = False,
+    split: Annotated[bool, typer.Option("--split", help="Write vertices split at the seams of the UVs.")] = False,
     format: Annotated[
         str | None, typer.Option(metavar="obj|ply|npz", help="Of standard input and output (-); by default obj.")
     ] = None,

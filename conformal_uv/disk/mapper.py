@@ -97,9 +97,7 @@ class DiskMapper:
                 flipped = flipped_faces(z, corners)
                 cost = repair_cost(self.surface, folded, z, before, flipped)
             center = center if center is not None and z[center] == 0.0 else None
-        result = disk_map_result(
-            self.surface, solution, options, z, flipped, cost, center
-        )
+        result = disk_map_result(self.surface, solution, options, z, flipped, cost, center)
         progress("placement", 1.0)
         return result
 

@@ -88,9 +88,7 @@ def minimise_boundary_energy(
         progress("newton", reached)
         if norm <= tolerance or iteration == max_iterations:
             break
-        direction, cg_steps = _newton_direction(
-            energy, gauge, tangent, tolerance, partial(progress, "newton", reached)
-        )
+        direction, cg_steps = _newton_direction(energy, gauge, tangent, tolerance, partial(progress, "newton", reached))
         blocking = _blocking(energy.theta, direction)
         if blocking.any() and (links | blocking).sum() <= len(links) - 3:
             links = links | blocking

@@ -100,4 +100,3 @@ def _extended_about(
 
 def _on_circle(zb: Complex) -> Complex:
     return zb / np.abs(zb)
-

@@ -137,4 +137,3 @@ def disk_map_result(
         backend="superlu" if solution.problem is None else solution.problem.backend,
         surface=surface,
     )
-

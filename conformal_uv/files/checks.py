@@ -75,8 +75,7 @@ def checked_mesh(
     starts = np.concatenate([np.zeros(1, np.int64), np.cumsum(sizes, dtype=np.int64)])
     if len(wrong):
         face = int(np.searchsorted(starts, wrong[0], side="right")) - 1
-        raise FileFormatError(f"{path}, {where(face)}: a vertex that does not exist "
-                              f"(the file has {len(V)}); {DAMAGED}")
+        raise FileFormatError(f"{path}, {where(face)}: a vertex that does not exist (the file has {len(V)}); {DAMAGED}")
     return PolygonMesh(np.ascontiguousarray(V), np.ascontiguousarray(corners), starts)
 
 
@@ -101,5 +100,6 @@ def foreign_parser(path: Path, what: str, library: str = "") -> Iterator[None]:
 
 def missing_library(name: str, suffix: str) -> MissingDependencyError:
     """The error to raise when an optional library for a file format is not installed."""
-    return MissingDependencyError(f"{suffix} files need the library {name}; "
-                                  'install it with: pip install "conformal-uv[cli]"')
+    return MissingDependencyError(
+        f'{suffix} files need the library {name}; install it with: pip install "conformal-uv[cli]"'
+    )

@@ -27,12 +27,15 @@ def checked_corner_uv(mesh: PolygonMesh, corner_uv: Floats) -> Floats:
     """
     uv = np.asarray(corner_uv, dtype=np.float64)
     if uv.shape != (len(mesh.corners), 2):
-        raise OptionError(f"corner_uv has the shape {uv.shape}; the mesh has {len(mesh.corners)} corners, "
-                          f"so it must be ({len(mesh.corners)}, 2)")
+        raise OptionError(
+            f"corner_uv has the shape {uv.shape}; the mesh has {len(mesh.corners)} corners, "
+            f"so it must be ({len(mesh.corners)}, 2)"
+        )
     infinite = np.flatnonzero(np.isinf(uv).any(axis=1))
     if len(infinite):
-        raise NonFiniteError(f"infinite texture coordinates at corners {listed(infinite)}; "
-                             "use NaN for a corner that has none", infinite)
+        raise NonFiniteError(
+            f"infinite texture coordinates at corners {listed(infinite)}; use NaN for a corner that has none", infinite
+        )
     return uv
 
 

@@ -82,8 +82,9 @@ def read_mesh(path: str | os.PathLike[str], *, format: str | None = None) -> Mes
         suffix = Path(path.stem).suffix.lower()
     reader = _READERS.get(suffix)
     if reader is None:
-        raise FileFormatError(f"{path}: files of the type {suffix!r} are not read; use {', '.join(READABLE)}."
-                              f"{_converters()}")
+        raise FileFormatError(
+            f"{path}: files of the type {suffix!r} are not read; use {', '.join(READABLE)}.{_converters()}"
+        )
     return reader(path, file_bytes(path))
 
 

@@ -87,23 +87,30 @@ def _array(path: Path, archive: zipfile.ZipFile, member: str) -> NDArray[Any]:
 
 def _present(path: Path, arrays: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
     if name not in arrays:
-        raise FileFormatError(f"{path}: no array {name!r}; save V and F, or V, corners and starts "
-                              f"(found: {', '.join(arrays) or 'none of these'})")
+        raise FileFormatError(
+            f"{path}: no array {name!r}; save V and F, or V, corners and starts "
+            f"(found: {', '.join(arrays) or 'none of these'})"
+        )
     return arrays[name]
 
 
-def _numbers(path: Path, arrays: dict[str, NDArray[Any]], name: str, shape: str,
-             rows: int | None = None) -> NDArray[np.float64]:
+def _numbers(
+    path: Path, arrays: dict[str, NDArray[Any]], name: str, shape: str, rows: int | None = None
+) -> NDArray[np.float64]:
     array = _present(path, arrays, name)
     if array.ndim != 2 or array.shape[1] != int(shape[-2]) or rows not in (None, len(array)):
-        raise FileFormatError(f"{path}: {name!r} has the shape {array.shape}; it must be {shape}"
-                              + ("" if rows is None else f" with {rows} rows"))
+        raise FileFormatError(
+            f"{path}: {name!r} has the shape {array.shape}; it must be {shape}"
+            + ("" if rows is None else f" with {rows} rows")
+        )
     return array.astype(np.float64)
 
 
 def _whole(path: Path, arrays: dict[str, NDArray[Any]], name: str, ndim: int) -> NDArray[np.int64]:
     array = _present(path, arrays, name)
     if array.ndim != ndim or array.dtype.kind not in "iu":
-        raise FileFormatError(f"{path}: {name!r} has the shape {array.shape} and type {array.dtype}; "
-                              f"it must be {ndim}-dimensional, of integers")
+        raise FileFormatError(
+            f"{path}: {name!r} has the shape {array.shape} and type {array.dtype}; "
+            f"it must be {ndim}-dimensional, of integers"
+        )
     return array.astype(np.int64)

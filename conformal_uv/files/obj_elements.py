@@ -123,7 +123,7 @@ def _integers(text: NDArray[np.uint8], starts: Ints, ends: Ints, negative: NDArr
 
 def _malformed(lines: TextLines, chosen: Ints) -> Exception:
     for line in chosen.tolist():
-        text = lines.text[lines.starts[line]:lines.ends[line]].tobytes()
+        text = lines.text[lines.starts[line] : lines.ends[line]].tobytes()
         if not WELL_FORMED.fullmatch(text):
             return lines.error(line, "not a list of vertex indices such as 3, 3/7, 3//5 or 3/7/5")
     return lines.error(int(chosen[0]), "a vertex index that is not understood, on this line or below")

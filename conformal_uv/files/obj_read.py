@@ -79,8 +79,13 @@ def parse_obj(path: Path, data: bytes) -> tuple[ObjSource, NDArray[np.float64] |
     _check_texture(lines, elements, texture, len(vt))
     face_corner = np.repeat(is_face, elements.sizes)
     face_lines = elements.line[is_face]
-    mesh = checked_mesh(path, V, vertex[face_corner], elements.sizes[is_face],
-                        lambda face: f"line {lines.number(int(face_lines[face]))}")
+    mesh = checked_mesh(
+        path,
+        V,
+        vertex[face_corner],
+        elements.sizes[is_face],
+        lambda face: f"line {lines.number(int(face_lines[face]))}",
+    )
     spans = np.stack([lines.starts[is_vt], np.minimum(lines.ends[is_vt], len(data))], axis=1)
     source = ObjSource(data, mesh, elements, is_face, texture, spans, int(lines.starts[elements.line[0]]))
     return source, _corner_uv(vt, texture[face_corner])
@@ -102,7 +107,7 @@ def _textured_polylines(lines: TextLines) -> NDArray[np.bool_]:
     """The ``l`` lines that have texture indices: these must follow when texture vertices are renumbered."""
     polylines = lines.keyword_lines(b"l")
     for i in np.flatnonzero(polylines).tolist():
-        polylines[i] = b"/" in lines.text[lines.starts[i]:lines.ends[i]].tobytes()
+        polylines[i] = b"/" in lines.text[lines.starts[i] : lines.ends[i]].tobytes()
     return polylines
 
 
@@ -120,8 +125,9 @@ def _check_texture(lines: TextLines, elements: Elements, texture: Ints, count: i
     wrong = np.flatnonzero((elements.texture != 0) & ((texture < 0) | (texture >= count)))
     if len(wrong):
         element = int(np.searchsorted(np.cumsum(elements.sizes), wrong[0], side="right"))
-        raise lines.error(int(elements.line[element]),
-                          f"a texture index that does not exist (the file has {count} vt lines)")
+        raise lines.error(
+            int(elements.line[element]), f"a texture index that does not exist (the file has {count} vt lines)"
+        )
 
 
 def _corner_uv(vt: NDArray[np.float64], texture: Ints) -> NDArray[np.float64] | None:

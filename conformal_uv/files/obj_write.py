@@ -66,7 +66,7 @@ def _vt_lines(data: bytes, uv: Floats) -> bytes:
     """Lines for these coordinates, with the shortest numbers that read back the same."""
     newline = data.find(b"\n")
     end = "\n" if newline >= 0 else "\r"
-    if newline > 0 and data[newline - 1:newline] == b"\r":
+    if newline > 0 and data[newline - 1 : newline] == b"\r":
         end = "\r\n"
     return ((f"vt %r %r{end}" * len(uv)) % tuple(uv.ravel().tolist())).encode("ascii")
 

@@ -30,18 +30,20 @@ def read_off(path: Path, data: bytes) -> MeshFile:
     inked = np.flatnonzero(lines.counts > 0)
     header = lines.words(inked[:1])
     if not header or header[0] not in HEADERS:
-        raise FileFormatError(f"{path}: not a text OFF file of 3-D points: it must begin with OFF "
-                              "(or COFF, NOFF, STOFF ...); export it again")
+        raise FileFormatError(
+            f"{path}: not a text OFF file of 3-D points: it must begin with OFF "
+            "(or COFF, NOFF, STOFF ...); export it again"
+        )
     # the counts stand on the header's own line or on the next
     row = 0 if len(header) > 1 else 1
     if len(inked) <= row:
         raise FileFormatError(f"{path}: no line with the numbers of vertices and faces; {DAMAGED}")
-    counts = lines.floats(inked[row:row + 1], 1 - row, 2, 2)[0]
+    counts = lines.floats(inked[row : row + 1], 1 - row, 2, 2)[0]
     if not (counts >= 0).all() or (counts % 1).any() or counts.sum() > len(inked) - row - 1:
         raise lines.error(int(inked[row]), "numbers of vertices and faces that the file has no lines for")
     n, m = counts.astype(np.int64).tolist()
-    V = lines.floats(inked[row + 1:row + 1 + n], 0, 3, 3)
-    face_lines = inked[row + 1 + n:row + 1 + n + m]
+    V = lines.floats(inked[row + 1 : row + 1 + n], 0, 3, 3)
+    face_lines = inked[row + 1 + n : row + 1 + n + m]
     corners, sizes = _polygons(lines, face_lines)
     mesh = checked_mesh(path, V, corners, sizes, lambda face: f"line {lines.number(int(face_lines[face]))}")
     return MeshFile(path, mesh)

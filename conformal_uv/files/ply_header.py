@@ -15,8 +15,24 @@ BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 MOST_HEADER = 1 << 16
 
 END = re.compile(rb"^end_header[ \t]*\r?\n?", re.MULTILINE)
-BYTES = {"char": 1, "uchar": 1, "int8": 1, "uint8": 1, "short": 2, "ushort": 2, "int16": 2, "uint16": 2,
-         "int": 4, "uint": 4, "int32": 4, "uint32": 4, "float": 4, "float32": 4, "double": 8, "float64": 8}
+BYTES = {
+    "char": 1,
+    "uchar": 1,
+    "int8": 1,
+    "uint8": 1,
+    "short": 2,
+    "ushort": 2,
+    "int16": 2,
+    "uint16": 2,
+    "int": 4,
+    "uint": 4,
+    "int32": 4,
+    "uint32": 4,
+    "float": 4,
+    "float32": 4,
+    "double": 8,
+    "float64": 8,
+}
 
 
 @dataclass
@@ -48,11 +64,12 @@ def read_ply_header(path: Path, data: bytes) -> tuple[list[PlyElementHeader], bo
     """
     end = END.search(data)
     if not data.startswith(b"ply") or end is None:
-        raise FileFormatError(f"{path}: not a PLY file: it must begin with the line 'ply' and have a line "
-                              "'end_header'; export it again")
+        raise FileFormatError(
+            f"{path}: not a PLY file: it must begin with the line 'ply' and have a line 'end_header'; export it again"
+        )
     elements: list[PlyElementHeader] = []
     text = False
-    for number, line in enumerate(data[:end.start()].split(b"\n"), start=1):
+    for number, line in enumerate(data[: end.start()].split(b"\n"), start=1):
         words = line.decode("latin-1").split()
         if words[:1] == ["format"]:
             text = words[1:2] == ["ascii"]
@@ -60,8 +77,10 @@ def read_ply_header(path: Path, data: bytes) -> tuple[list[PlyElementHeader], bo
             elements.append(PlyElementHeader(words[1], int(words[2][:18])))
         elif words[:1] in (["element"], ["property"]):
             if not elements or not _add_property(elements[-1], words, text):
-                raise FileFormatError(f"{path}, line {number}: a PLY header line that is not understood: "
-                                      f"{' '.join(words)[:60]!r}; export it again")
+                raise FileFormatError(
+                    f"{path}, line {number}: a PLY header line that is not understood: "
+                    f"{' '.join(words)[:60]!r}; export it again"
+                )
     return elements, text, end.end()
 
 
@@ -79,5 +98,7 @@ def check_counts(path: Path, elements: list[PlyElementHeader], size: int) -> Non
     for element in elements:
         # the last row of a text file may lack its newline
         if element.count * max(element.least_bytes, 1) > size + 1:
-            raise FileFormatError(f"{path}: {element.count} rows of {element.name!r} are declared, more than "
-                                  f"{size} bytes can hold; {DAMAGED}")
+            raise FileFormatError(
+                f"{path}: {element.count} rows of {element.name!r} are declared, more than "
+                f"{size} bytes can hold; {DAMAGED}"
+            )

@@ -95,8 +95,10 @@ def _corner_uv(path: Path, vertex: NDArray[Any], face: NDArray[Any], mesh: Polyg
         wrong = np.flatnonzero((counts != 2 * mesh.sizes) & (counts > 0))
         if len(wrong):
             f, size = int(wrong[0]), int(mesh.sizes[wrong[0]])
-            raise FileFormatError(f"{path}, face {f}: {int(counts[f])} texture numbers for {size} corners; "
-                                  "two each are needed, or none; export it again")
+            raise FileFormatError(
+                f"{path}, face {f}: {int(counts[f])} texture numbers for {size} corners; "
+                "two each are needed, or none; export it again"
+            )
         if not counts.any():
             return None
         uv = np.full((len(mesh.corners), 2), np.nan)

@@ -63,7 +63,7 @@ def _uneven(element: Any, byte_order: str) -> bytes:
 
 def _cells(column: NDArray[Any], dtype: str) -> Iterable[bytes]:
     raw, width = column.astype(dtype).tobytes(), np.dtype(dtype).itemsize
-    return (raw[k:k + width] for k in range(0, len(raw), width))
+    return (raw[k : k + width] for k in range(0, len(raw), width))
 
 
 def _text(element: Any) -> bytes:

@@ -64,8 +64,7 @@ def _fresh(plyfile: Any, mesh: PolygonMesh) -> list[Any]:
     face = np.empty(len(mesh.sizes), [_list_field("vertex_indices", "i4", mesh.sizes)])
     _set_lists(face, "vertex_indices", mesh.corners.astype(np.int32), mesh.sizes)
     lengths = {"vertex_indices": _length_type(mesh.sizes)}
-    return [plyfile.PlyElement.describe(vertex, "vertex"),
-            plyfile.PlyElement.describe(face, "face", len_types=lengths)]
+    return [plyfile.PlyElement.describe(vertex, "vertex"), plyfile.PlyElement.describe(face, "face", len_types=lengths)]
 
 
 def _wedges(mesh: PolygonMesh, uv: Floats) -> tuple[NDArray[np.float32], NDArray[np.int64]]:

@@ -167,9 +167,10 @@ class TextLines:
 
     def error(self, line: int, what: str) -> FileFormatError:
         """The refusal of a line: where it is, what is wrong, what it says."""
-        quoted = self.data[self.starts[line]:self.ends[line]].strip()[:60].decode("latin-1")
-        return FileFormatError(f"{self.path}, line {self.number(line)}: {what}: {quoted!r}; "
-                               "correct the line or export the file again")
+        quoted = self.data[self.starts[line] : self.ends[line]].strip()[:60].decode("latin-1")
+        return FileFormatError(
+            f"{self.path}, line {self.number(line)}: {what}: {quoted!r}; correct the line or export the file again"
+        )
 
 
 def _blank_comments(block: NDArray[np.uint8], comment: bool) -> bool:

@@ -75,18 +75,14 @@ def face_array(F: ArrayLike, n: int) -> NDArray[np.int32]:
     if faces.min() < 0 or faces.max() >= n:
         bad = np.flatnonzero(((faces < 0) | (faces >= n)).any(axis=1))
         hint = " Indices start at 0." if faces.min() >= 1 and faces.max() == n else ""
-        raise MeshError(
-            f"{len(bad)} faces name vertices outside 0 .. {n - 1}: faces {listed(bad)}.{hint}", bad
-        )
+        raise MeshError(f"{len(bad)} faces name vertices outside 0 .. {n - 1}: faces {listed(bad)}.{hint}", bad)
     corners = np.empty((3, len(faces)), dtype=np.int32)
     corners[...] = faces.T
     a, b, c = corners
     repeated = (a == b) | (b == c) | (c == a)
     if repeated.any():
         bad = np.flatnonzero(repeated)
-        raise DegenerateFaceError(
-            f"{len(bad)} faces repeat a vertex: faces {listed(bad)}. Remove them.", bad
-        )
+        raise DegenerateFaceError(f"{len(bad)} faces repeat a vertex: faces {listed(bad)}. Remove them.", bad)
     return corners
 
 

@@ -30,9 +30,7 @@ def pinched_vertices(vertex: Ints, left: Ints, right: Ints, n: int) -> Ints:
     return np.flatnonzero(np.bincount(vertex[first], minlength=n) > 1)
 
 
-def split_corners(
-    vertex: Ints, left: Ints, right: Ints, n: int, touched: NDArray[np.bool_]
-) -> tuple[Ints, Ints]:
+def split_corners(vertex: Ints, left: Ints, right: Ints, n: int, touched: NDArray[np.bool_]) -> tuple[Ints, Ints]:
     """A site for every fan at every vertex: the vertices of the surface after it was cut.
 
     Parameters

@@ -34,8 +34,7 @@ def check_edges(corners: NDArray[np.int32], edges: HalfEdges) -> None:
         twice = np.flatnonzero(count[index.reshape(-1)] > 1)
         if len(twice):
             raise DuplicateFaceError(
-                f"{len(twice)} faces have the same three vertices as another: faces {listed(twice)}. "
-                "Keep one of each.",
+                f"{len(twice)} faces have the same three vertices as another: faces {listed(twice)}. Keep one of each.",
                 twice,
             )
     if len(crowded):
@@ -88,9 +87,7 @@ def is_face_connected(corners: NDArray[np.int32], edges: HalfEdges) -> bool:
     m = corners.shape[1]
     across = np.where(edges.twin >= 0, edges.twin % m, np.tile(np.arange(m, dtype=np.int32), 3))
     neighbour = np.ascontiguousarray(across.reshape(3, m).T).reshape(-1)
-    graph = csr_array(
-        (np.ones(3 * m), neighbour, np.arange(0, 3 * m + 1, 3, dtype=np.int32)), shape=(m, m)
-    )
+    graph = csr_array((np.ones(3 * m), neighbour, np.arange(0, 3 * m + 1, 3, dtype=np.int32)), shape=(m, m))
     return len(breadth_first_order(graph, 0, directed=True, return_predecessors=False)) == m
 
 

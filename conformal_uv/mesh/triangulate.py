@@ -154,8 +154,9 @@ def _clip_ears(P: Floats) -> Ints:
     ring = np.arange(size)
     before, after = np.tile(np.roll(ring, 1), (q, 1)), np.tile(np.roll(ring, -1), (q, 1))
     alive = np.ones((q, size), dtype=bool)
-    quality = np.stack([_ear_quality(P, alive, np.tile([(k - 1) % size, k, (k + 1) % size], (q, 1)))
-                        for k in range(size)], axis=1)
+    quality = np.stack(
+        [_ear_quality(P, alive, np.tile([(k - 1) % size, k, (k + 1) % size], (q, 1))) for k in range(size)], axis=1
+    )
     triangles = np.empty((q, size - 2, 3), np.int64)
     for r in range(size - 2):
         tip = quality.argmax(axis=1)

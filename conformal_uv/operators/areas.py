@@ -27,9 +27,7 @@ def face_areas(V: ArrayLike, F: ArrayLike) -> NDArray[np.float64]:
     return squared_units(0.5 * triangle_geometry(vertices, corners).double_area, unit)
 
 
-def lumped_areas(
-    geometry: TriangleGeometry, corners: NDArray[np.int32], n: int
-) -> NDArray[np.float64]:
+def lumped_areas(geometry: TriangleGeometry, corners: NDArray[np.int32], n: int) -> NDArray[np.float64]:
     """A third of the area of the faces around each vertex, (n,)."""
     share = np.tile(geometry.double_area / 6.0, 3)
     return np.bincount(corners.reshape(-1), weights=share, minlength=n).astype(np.float64, copy=False)

@@ -113,9 +113,7 @@ class DirichletProblem:
         i, j, w = number[i[~mixed]], number[j[~mixed]], -w[~mixed]
         d = np.arange(nb)
         values = np.concatenate((w, w, self._degree[self.boundary]))
-        self.Lbb = csr_array(
-            (values, (np.concatenate((i, j, d)), np.concatenate((j, i, d)))), shape=(nb, nb)
-        )
+        self.Lbb = csr_array((values, (np.concatenate((i, j, d)), np.concatenate((j, i, d)))), shape=(nb, nb))
 
     def report_to(self, progress: Progress) -> None:
         """Where solutions that take long are to report from now on."""
@@ -208,9 +206,7 @@ def _lower_triangle(
     return LowerTriangle(data, indices, indptr)
 
 
-def _numbered(
-    boundary: NDArray[np.int64], n: int
-) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int32]]:
+def _numbered(boundary: NDArray[np.int64], n: int) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int32]]:
     """Which vertices are interior, the list of them, and each vertex's place within the interior or the boundary."""
     inside = np.ones(n, dtype=bool)
     inside[boundary] = False

@@ -94,9 +94,7 @@ def distortion(V: ArrayLike, F: ArrayLike, image: ArrayLike) -> Distortion:
     except (TypeError, ValueError) as error:
         raise MeshError(f"The image is not an array of real numbers ({error}); pass (n, 2) or (n, 3).") from error
     if positions.ndim != 2 or positions.shape[1] not in (2, 3) or len(positions) != len(vertices):
-        raise MeshError(
-            f"The image has shape {positions.shape}; pass ({len(vertices)}, 2) or ({len(vertices)}, 3)."
-        )
+        raise MeshError(f"The image has shape {positions.shape}; pass ({len(vertices)}, 2) or ({len(vertices)}, 3).")
     bad = np.flatnonzero(~np.isfinite(positions).all(axis=1))
     if len(bad):
         raise NonFiniteError(f"The image of {len(bad)} vertices is NaN or infinite: vertices {listed(bad)}.", bad)
@@ -130,9 +128,7 @@ def orientations(image: Real, corners: NDArray[np.int32]) -> NDArray[np.int8]:
     return (orientation_signs if image.shape[1] == 2 else outward_signs)(image, corners)
 
 
-def _image_sides(
-    image: Real, corners: NDArray[np.int32], shape: TriangleGeometry, signs: NDArray[np.int8]
-) -> Sides:
+def _image_sides(image: Real, corners: NDArray[np.int32], shape: TriangleGeometry, signs: NDArray[np.int8]) -> Sides:
     """Two edges of each face's image, laid into a plane."""
     if image.shape[1] == 2:
         return planar_sides(np.ascontiguousarray(image).view(np.complex128).reshape(-1), corners)

@@ -140,9 +140,7 @@ def _edges_around(
     return np.minimum(lo, hi), np.maximum(lo, hi), weights[taken]
 
 
-def _sorted(
-    lo: NDArray[np.int32], hi: NDArray[np.int32], weights: NDArray[np.float64], n: int
-) -> EdgeLaplacian:
+def _sorted(lo: NDArray[np.int32], hi: NDArray[np.int32], weights: NDArray[np.float64], n: int) -> EdgeLaplacian:
     """The edges in order, those between the same two vertices taken together."""
     order = sorted_pairs(lo, hi, n)
     lo, hi, weights = lo.take(order), hi.take(order), weights.take(order)

@@ -48,6 +48,4 @@ def gradient(V: ArrayLike, F: ArrayLike) -> csr_array:
     m = corners.shape[1]
     rows = np.broadcast_to(3 * np.arange(m)[:, None] + np.arange(3), (3, m, 3))
     columns = np.broadcast_to(corners[:, :, None], (3, m, 3))
-    return csr_array(
-        (turned.reshape(-1), (rows.reshape(-1), columns.reshape(-1))), shape=(3 * m, len(vertices))
-    )
+    return csr_array((turned.reshape(-1), (rows.reshape(-1), columns.reshape(-1))), shape=(3 * m, len(vertices)))

@@ -48,7 +48,5 @@ def positive_mean_value_matrix(
     rows = np.concatenate((here, here)).reshape(-1)
     columns = np.concatenate((after, before)).reshape(-1)
     reach = np.where(loose, LEAST_RATIO, 0.0) * (np.abs(ahead) + np.abs(behind)) + SHORTEST
-    values = np.concatenate(
-        (tangent / np.maximum(np.abs(ahead), reach), tangent / np.maximum(np.abs(behind), reach))
-    )
+    values = np.concatenate((tangent / np.maximum(np.abs(ahead), reach), tangent / np.maximum(np.abs(behind), reach)))
     return csr_array((values.reshape(-1), (rows, columns)), shape=(len(z), len(z)))

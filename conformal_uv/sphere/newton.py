@@ -118,9 +118,7 @@ def _direction(
 ) -> tuple[Real, int]:
     norm = float(np.linalg.norm(gradient))
     goal = max(min(0.1, np.sqrt(norm)) * norm, 0.3 * tolerance)
-    return truncated_cg(
-        gradient, lambda d: held.project(energy.hessian_product(d)), held.precondition, goal, watch
-    )
+    return truncated_cg(gradient, lambda d: held.project(energy.hessian_product(d)), held.precondition, goal, watch)
 
 
 def _line_search(

@@ -49,9 +49,7 @@ def linear_sphere(surface: Surface, laplacian: str, backend: str, progress: Prog
     disk, rest = surface.without_vertex(vertex)
     progress("assembly", 0.0)
     edges = edge_laplacian(disk.corners, disk.edges, disk.geometry, disk.n, laplacian)
-    problem = DirichletProblem(
-        edges, disk.loops[0], disk.n, points=disk.V, backend=backend, progress=progress
-    )
+    problem = DirichletProblem(edges, disk.loops[0], disk.n, points=disk.V, backend=backend, progress=progress)
     progress("linear", 0.0)
     measure = centred_measure(disk, problem)
     theta = CentreGauge(measure.vertex_measure, measure.theta).restore(measure.theta)

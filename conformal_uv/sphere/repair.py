@@ -36,9 +36,7 @@ def unfolded(surface: Surface, x: Real, progress: Progress) -> Real:
     return x
 
 
-def _unfolded_about(
-    surface: Surface, x: Real, fold: int, inverted: NDArray[np.int64], progress: Progress
-) -> Real:
+def _unfolded_about(surface: Surface, x: Real, fold: int, inverted: NDArray[np.int64], progress: Progress) -> Real:
     corners = surface.corners
     middle = unit(x[corners].mean(axis=0))
     sound = np.setdiff1d(np.arange(surface.m), inverted)

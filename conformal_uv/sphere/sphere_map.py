@@ -32,6 +32,7 @@ __all__ = ["sphere_map"]
 Real = NDArray[np.float64]
 log = logging.getLogger(__name__)
 
+
 def sphere_map(
     V: ArrayLike,
     F: ArrayLike,
@@ -190,9 +191,7 @@ def _newton(
     progress: Progress,
 ) -> SphereNewton:
     grounded = np.array([most_regular_vertex(surface)])
-    problem = DirichletProblem(
-        edges, grounded, surface.n, points=surface.V, backend=backend, progress=progress
-    )
+    problem = DirichletProblem(edges, grounded, surface.n, points=surface.V, backend=backend, progress=progress)
     start = SphereEnergy(edges, surface.corners, x)
     return minimise_sphere_energy(
         start,

@@ -91,8 +91,13 @@ def test_redo_factorizes_nothing(factorizations, mode):
     bpy.ops.uv.conformal_unwrap()
     assert len(factorizations) == 1
     for change in (
-        {"rotation": 0.4}, {"place": "PACK"}, {"place": "FIT", "margin": 0.1}, {"center": "ACTIVE"},
-        {"method": "LINEAR"}, {"correct_aspect": False}, {"uv_layer": "Other"},
+        {"rotation": 0.4},
+        {"place": "PACK"},
+        {"place": "FIT", "margin": 0.1},
+        {"center": "ACTIVE"},
+        {"method": "LINEAR"},
+        {"correct_aspect": False},
+        {"uv_layer": "Other"},
     ):
         assert bpy.ops.uv.conformal_unwrap(**change) == {"FINISHED"}
     assert len(factorizations) == 1

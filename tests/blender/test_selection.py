@@ -142,9 +142,7 @@ def test_flipped_faces_bow_ties_and_fins_are_mended(addon):
     """Where Blender's own unwrap does something, ours does not refuse."""
     flipped = scenes.grid(name="Flipped")
     flipped.data.flip_normals()
-    ob = scenes.mesh_object(
-        [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], [[0, 1, 2], [0, 3, 4]], "Bow"
-    )
+    ob = scenes.mesh_object([[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], [[0, 1, 2], [0, 3, 4]], "Bow")
     against = scenes.mesh_object([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 3, 2]], "Against")
     scenes.select(flipped, ob, against)
     assert bpy.ops.uv.conformal_unwrap() == {"FINISHED"}

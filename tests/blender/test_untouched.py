@@ -132,9 +132,7 @@ def test_bad_meshes_are_told_not_thrown():
     )
     wire = scenes.mesh_object([[0, 0, 0], [1, 0, 0]], [], "Wire")
     good = scenes.grid(name="Good")
-    loose = scenes.mesh_object(
-        [[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], [[0, 1, 2]], "Loose"
-    )
+    loose = scenes.mesh_object([[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], [[0, 1, 2]], "Loose")
     loose.data.edges.add(1)
     loose.data.edges[-1].vertices = (0, 3)
     loose.data.edges[-1].use_seam = True

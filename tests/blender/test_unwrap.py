@@ -185,8 +185,10 @@ def test_subdivided_surface():
         found = scenes.uvs(ob)
         for polygon in ob.data.polygons:
             near = [
-                loop for loop, vertex in zip(polygon.loop_indices, polygon.vertices, strict=True)
-                for part in fine.data.polygons for k in part.loop_indices
+                loop
+                for loop, vertex in zip(polygon.loop_indices, polygon.vertices, strict=True)
+                for part in fine.data.polygons
+                for k in part.loop_indices
                 if fine.data.loops[k].vertex_index == vertex and np.abs(fine_uv[k] - found[loop]).max() < 1e-6
             ]
             assert set(near) == set(polygon.loop_indices)
