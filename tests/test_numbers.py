@@ -9,6 +9,7 @@ from nasty_meshes import grid
 from scipy.spatial.transform import Rotation
 
 import conformal_uv as cuv
+from conformal_uv.mesh.arrays import on_one_line
 from conformal_uv.samples import mask
 
 SCALES = [1e-150, 1e-100, 1e-78, 1e-20, 1e20, 1e80, 1e100, 1e150]
@@ -84,6 +85,15 @@ def test_vertices_on_one_line_are_refused(scale: float, shift: float) -> None:
         cuv.sphere_map(scale * (shift + V[:, :1] * rng.normal(size=3)), F)
 
 
+def test_a_line_is_told_from_a_strip_as_far_as_rounding_lets() -> None:
+    rng = np.random.default_rng(5)
+    turned = Rotation.random(random_state=3).as_matrix()
+    along = np.sort(rng.random(300))
+    for width, line in ((0.0, True), (1e-17, True), (1e-13, False), (1e-6, False)):
+        V = np.column_stack((along, width * rng.random(300), np.zeros(300))) @ turned.T
+        assert on_one_line(V) is line, width
+
+
 @pytest.mark.parametrize("thinness", [1e-3, 1e-12, 1e-100])
 def test_a_thin_sheet_is_no_line(thinness: float) -> None:
     V, F = grid(10, 10, 1.0, thinness)
@@ -120,7 +130,8 @@ def test_lost_to_float32_follows_the_caller_s_own_packing() -> None:
 def test_energy_of_a_folded_sphere_is_the_solver_s() -> None:
     V, F = bumpy_sphere(3)
     rng = np.random.default_rng(0)
-    found = cuv.sphere_map(V * (1.0 + 0.5 * rng.random((len(V), 1))), F, method="linear", repair="never")
+    found = cuv.sphere_map(V + 0.12 * rng.normal(size=V.shape), F, method="linear", repair="never", laplacian="cotan")
+    assert len(found.flipped) > 0
     x = found.xyz
     normal = np.cross(x[F[:, 1]] - x[F[:, 0]], x[F[:, 2]] - x[F[:, 0]])
     sign = np.where(np.einsum("ij,ij->i", x[F[:, 0]], normal) < 0.0, -1.0, 1.0)

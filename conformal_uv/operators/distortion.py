@@ -112,7 +112,7 @@ def distortion_of(
     angle, quasi_conformal, area_scale, signs = np.empty((m, 3)), np.empty(m), np.empty(m), orientations(image, corners)
     for part in blocks(m):
         here, there = geometry.part(part), triangle_geometry(image, corners[:, part])
-        sides = _image_sides(image, corners[:, part], there, signs[part])
+        sides = _image_sides(image, corners[:, part], there)
         has_area = here.double_area > 0
         fz, fzbar = wirtinger(unfolded_sides(here), sides, np.where(has_area, here.double_area, 1.0))
         plus, minus = np.abs(fz), np.abs(fzbar)
@@ -128,12 +128,11 @@ def orientations(image: Real, corners: NDArray[np.int32]) -> NDArray[np.int8]:
     return (orientation_signs if image.shape[1] == 2 else outward_signs)(image, corners)
 
 
-def _image_sides(image: Real, corners: NDArray[np.int32], shape: TriangleGeometry, signs: NDArray[np.int8]) -> Sides:
-    """Two edges of each face's image, laid into a plane."""
+def _image_sides(image: Real, corners: NDArray[np.int32], shape: TriangleGeometry) -> Sides:
+    """Two edges of each face's image, laid into a plane; from the sphere always anticlockwise."""
     if image.shape[1] == 2:
         return planar_sides(np.ascontiguousarray(image).view(np.complex128).reshape(-1), corners)
-    first, second = unfolded_sides(shape)
-    return first, np.where(signs < 0, second.conj(), second)
+    return unfolded_sides(shape)
 
 
 def _angle_between(one: TriangleGeometry, other: TriangleGeometry) -> Real:
