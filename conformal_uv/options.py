@@ -166,8 +166,12 @@ class Normalization(Choice):
     """What the last Moebius map brings to the middle of the ball."""
 
     AREA = "area"
-    CENTRE = "centre"
+    CENTER = "center"
     NONE = "none"
+
+    @classmethod
+    def _missing_(cls, value: object) -> Normalization | None:
+        return cls.CENTER if value == "centre" else None  # its name in the first version
 
 
 class Rotation(Choice):

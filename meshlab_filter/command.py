@@ -44,7 +44,7 @@ def disk(
         Orientation, typer.Option(help="Faces wound against their neighbours.")
     ] = Orientation.REFUSE,
     repair: Annotated[Repair, typer.Option(help="Folded triangles.")] = Repair.AUTO,
-    center: Annotated[int | None, typer.Option(metavar="V", help="Vertex (from 0) sent to the centre.")] = None,
+    center: Annotated[int | None, typer.Option(metavar="V", help="Vertex (from 0) sent to the center.")] = None,
     texture: Annotated[str | None, typer.Option(metavar="FILE|checker", help="Image to link.")] = None,
     quality: Annotated[Quality, typer.Option(help="Per-face scalar to write (PLY keeps it).")] = Quality.NONE,
     filter_script: Annotated[

@@ -86,7 +86,7 @@ def compute_texcoord_parametrization_conformal_disk(
     laplacian : Enum
         'auto', 'cotan', 'intrinsic-delaunay'.
     center, boundary_vertex : Integer
-        Vertex sent to the centre, boundary vertex sent to angle 0; several for several parts.
+        Vertex sent to the center, boundary vertex sent to angle 0; several for several parts.
     pins : three Integers
         Boundary vertices sent to the cube roots of unity; several triples for several parts.
     pin_mode : Enum

@@ -46,7 +46,7 @@ def compute_coord_conformal_sphere(
     method : Enum
         'newton' (default), 'linear' (one factorization, slightly less exact), 'augmented-lagrangian'.
     normalization : Enum
-        What comes to the middle of the ball: the centre of mass of the 'area' (default), of the vertices ('centre'),
+        What comes to the middle of the ball: the centre of mass of the 'area' (default), of the vertices ('center'),
         or 'none'.
     rotation : Enum
         'principal' (axes of the mass), 'surface' (nearest to the surface's own directions), 'none'.

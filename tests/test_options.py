@@ -77,3 +77,8 @@ def test_remedies_of_charts_name_values_that_are_taken() -> None:
     (chart,) = cuv.unwrap(V, F, holes="refuse").charts
     (remedy,) = [way for way in chart.error.ways if isinstance(way, Remedy)]
     assert cuv.unwrap(V, F, **{remedy.option: remedy.value}).mapped.all()
+
+
+def test_the_first_spelling_of_center_is_still_taken() -> None:
+    assert options.Normalization.of("normalization", "centre") is options.Normalization.CENTER
+    assert "centre" not in list(options.Normalization)

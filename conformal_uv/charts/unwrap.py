@@ -66,7 +66,7 @@ def unwrap(
     center, boundary_vertex : vertices, optional
         Each is used by the chart in whose interior, or on whose boundary, it lies; of several in one chart the first.
     rotation : float
-        Radians, anticlockwise; every disk is turned by it about its centre at the end.
+        Radians, anticlockwise; every disk is turned by it about its center at the end.
     holes : {"fill", "refuse"}
         What to do with all boundary loops but one: fill them for the solution only, or refuse.
     outer_loop : vertices, optional

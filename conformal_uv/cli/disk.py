@@ -45,7 +45,7 @@ def disk(
         typer.Option(metavar="A,B,C", help="Boundary vertices (from 0) sent to 1, w, w^2 with w = exp(2 pi i / 3)."),
     ] = None,
     pin_mode: Annotated[PinMode | None, typer.Option(help="How the pins are reached.")] = None,
-    center: Annotated[int | None, typer.Option(metavar="V", help="Vertex (from 0) sent to the centre.")] = None,
+    center: Annotated[int | None, typer.Option(metavar="V", help="Vertex (from 0) sent to the center.")] = None,
     boundary_vertex: Annotated[
         int | None, typer.Option(metavar="V", help="Boundary vertex (from 0) sent to angle 0.")
     ] = None,

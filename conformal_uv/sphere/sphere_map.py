@@ -60,7 +60,7 @@ def sphere_map(
         "linear": the disk's map of the surface without its most regular vertex, projected stereographically.
         "newton": from there to a minimiser of the conformal energy among the maps that are centred by area.
         "augmented-lagrangian": the same minimiser in the way of Choi's report, for small meshes.
-    normalization : {"area", "centre", "none"}
+    normalization : {"area", "center", "none"}
         The Moebius map at the end: the centre of mass of the surface's area (each vertex's third of its faces), or
         of the vertices, comes to the middle of the ball; "none" leaves what the method ends with.
     rotation : {"principal", "surface", "none"}
@@ -206,7 +206,7 @@ def _newton(
 def _placed(surface: Surface, x: Real, mass: Real, options: SphereOptions) -> Real:
     if options.landmarks is not None:
         return unit(landmark_aligned(x, options.landmarks))
-    if options.normalization is Normalization.CENTRE:
+    if options.normalization is Normalization.CENTER:
         mass = np.full(surface.n, 1.0 / surface.n)
         x = centred(x, mass)
     if options.rotation is Rotation.PRINCIPAL:
