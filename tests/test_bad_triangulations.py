@@ -215,3 +215,17 @@ def test_signs_of_areas_are_exact() -> None:
     a, b, c = (points[k] for k in triples)
     plain = np.sign((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
     np.testing.assert_array_equal(orientation_signs(points, triples), plain)  # far from any line
+
+
+def test_only_what_doubles_can_not_resolve_is_lost(load_scan) -> None:
+    """A hammer cut open crowds: of its folds some have no height in doubles, the others are folds and said to be."""
+    V, F = load_scan("meshes/cut_hammer.obj")
+    m = cuv.disk_map(V, F, method="linear")
+    a, b, c = m.uv[F].transpose(1, 0, 2)
+    longest = np.max([np.linalg.norm(p - q, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+    height = np.abs(np.cross(b - a, c - a)) / np.maximum(longest, 1e-300)
+    rounding = 16.0 * np.finfo(float).eps  # of positions in the unit disk, with a few operations behind them
+    folded = np.zeros(len(F), dtype=bool)
+    folded[m.flipped] = True
+    np.testing.assert_array_equal(m.lost_to_double, np.flatnonzero(folded & (height <= rounding)))
+    assert 0 < len(m.lost_to_double) < len(m.flipped)
