@@ -12,6 +12,9 @@ from enum import StrEnum
 from operator import index
 from typing import Any, Self, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .errors import OptionError
 
 __all__ = [
@@ -312,12 +315,16 @@ class DiskOptions(Limits):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SplitOptions:
-    """What to do with a mesh that does not fall into disks by itself; see `unwrap`."""
+    """What to do with a mesh that does not fall into disks by itself; see `unwrap`.
+
+    `outer_loop` (v,) are vertices on loops that become circles.
+    """
 
     holes: Holes = Holes.FILL
     closed: Closed = Closed.REFUSE
     nonmanifold: NonManifold = NonManifold.REFUSE
     orientation: Orientation = Orientation.REFUSE
+    outer_loop: NDArray[np.int64] | None = None
 
     def __post_init__(self) -> None:
         _set(

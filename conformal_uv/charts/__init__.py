@@ -1,7 +1,7 @@
 """Charts: polygons with seams, holes, cuts and faults made into disks, mapped and packed."""
 
 from .chart import Chart, Unwrapped
-from .placement import Placement
+from .packing import Placement
 from .together import pack_together
 from .unwrap import unwrap
 from .unwrapper import Unwrapper

@@ -15,7 +15,7 @@ from ..errors import ConformalUVError, Remedy, listed
 from ..operators import Distortion, distortion
 from ..operators.orientation_sign import orientation_signs
 from .chart_meshes import ChartMesh
-from .placement import Placement
+from .packing import Placement
 
 __all__ = ["Chart", "Unwrapped"]
 
@@ -41,7 +41,7 @@ class Chart:
         The chart's own triangles (polygons cut into triangles, holes not filled), in chart vertices.
     polygon : (m,) int64
         The caller's polygon of each of these.
-    corners : (m, 3) int64
+    corner : (m, 3) int64
         The caller's polygon corner at each corner of these, a row of ``Unwrapped.uv``.
     flipped : (k,) int64
         The caller's polygons with a triangle whose image has non-positive signed area.
@@ -57,7 +57,7 @@ class Chart:
     vertices: NDArray[np.int64]
     F: NDArray[np.int64]
     polygon: NDArray[np.int64]
-    corners: NDArray[np.int64]
+    corner: NDArray[np.int64]
     flipped: NDArray[np.int64]
     notes: list[str]
     placement: Placement
@@ -114,13 +114,13 @@ class Unwrapped:
         uv : (k, 2) floats, optional
             Coordinates as they are stored, where the caller has moved its islands; by default ``self.uv``.
         """
-        sizes = [len(chart.corners) if chart.map is not None else 0 for chart in self.charts]
-        corners = [chart.corners for chart in self.charts if chart.map is not None]
+        sizes = [len(chart.corner) if chart.map is not None else 0 for chart in self.charts]
+        corner = [chart.corner for chart in self.charts if chart.map is not None]
         owner = np.repeat(np.arange(len(sizes)), sizes)
-        if not corners:
+        if not corner:
             return np.zeros(len(sizes), dtype=np.int64)
         stored = np.asarray(self.uv if uv is None else uv).astype(np.float32).astype(np.float64)
-        lost = orientation_signs(stored, np.concatenate(corners).T.astype(np.int32)) <= 0
+        lost = orientation_signs(stored, np.concatenate(corner).T.astype(np.int32)) <= 0
         return np.bincount(owner[lost], minlength=len(sizes))
 
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from ..operators.wirtinger import planar_sides, signed_double_areas
 from ..options import DiskOptions, Laplacian
 from ..progress import Callback
 from .chart_meshes import ChartMesh
-from .vertex_options import ChartOptions, VertexOptions
+from .named_vertices import NamedVertices, vertices_used
 
 __all__ = ["ChartMapper", "ChartSolution"]
 
@@ -50,7 +50,7 @@ class ChartMapper:
         self._laplacian, self._backend = laplacian, backend
         self._mapper: DiskMapper | None = None
 
-    def solve(self, options: DiskOptions, vertices: VertexOptions, callback: Callback | None) -> ChartSolution:
+    def solve(self, options: DiskOptions, vertices: NamedVertices, callback: Callback | None) -> ChartSolution:
         """Map the chart; what is wrong with the chart comes back as its error.
 
         Raises
@@ -64,18 +64,17 @@ class ChartMapper:
                 return _failed(self._told(error))
         return _failed(self._error)
 
-    def _solution(self, options: DiskOptions, vertices: VertexOptions, callback: Callback | None) -> ChartSolution:
+    def _solution(self, options: DiskOptions, vertices: NamedVertices, callback: Callback | None) -> ChartSolution:
         mesh = self.mesh
         if self._mapper is None:
             self._mapper = DiskMapper(
                 mesh.V, mesh.solved, laplacian=self._laplacian, backend=self._backend, callback=callback
             )
-        own: ChartOptions = vertices.of_chart(mesh.vertices, self._mapper.boundary)
-        anchors = replace(options, pins=own.pins, center=own.center, boundary_vertex=own.boundary_vertex)
-        found = self._mapper.solved(anchors, callback)
+        own, notes = vertices.of_chart(options, mesh.vertices, self._mapper.boundary)
+        found = self._mapper.solved(own, callback)
         z = np.ascontiguousarray(found.uv).view(np.complex128).reshape(-1)[: len(mesh.vertices)]
         signed = signed_double_areas(planar_sides(z, mesh.F.T.astype(np.int32)))
-        return ChartSolution(found, None, own.notes, z, signed, own.used(mesh.vertices))
+        return ChartSolution(found, None, notes, z, signed, vertices_used(own, mesh.vertices))
 
     def _told(self, error: ConformalUVError) -> ConformalUVError:
         """The error with the caller's polygons for the chart's triangles.

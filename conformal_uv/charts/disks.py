@@ -5,15 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import Remedy, TopologyError
-from ..options import Closed, Holes
-from .boundaries import Boundaries, boundaries, genera, without_digons
+from ..errors import OptionError, Remedy, TopologyError, listed
+from ..options import Closed, Holes, SplitOptions
+from .boundary_loops import BoundaryLoops, boundary_loops, filled, genera, without_digons, zipped
 from .cut_graph import OneChart, handle_cut, sphere_cut
 from .cut_surface import CutSurface
 from .faults import by_chart
-from .holes import filled, zipped
-from .mending import Mending
-from .split import Split
+from .splitting import Split
 
 __all__ = ["made_disks"]
 
@@ -23,39 +21,53 @@ Bools = NDArray[np.bool_]
 CUT = Remedy("closed", Closed.CUT)
 
 
-def made_disks(split: Split, partner: Ints, mending: Mending) -> Split:
-    """Choose the outer loops, fill the holes, cut closed charts and handles, or note why that is refused."""
+def made_disks(split: Split, options: SplitOptions) -> Split:
+    """Choose the outer loops, fill the holes, cut closed charts and handles, or note why that is refused.
+
+    Raises
+    ------
+    OptionError
+        A vertex of `outer_loop` that is on no boundary.
+    """
     surface, sound = split.surface, split.sound
-    found = boundaries(surface, sound)
+    found = boundary_loops(surface, sound)
     faulty = surface.vertex[~sound[surface.chart[surface.polygon]]]
-    mending.check_outer_loop(np.concatenate((surface.vertex[found.side], faulty)))
-    inner = _inner_loops(split, found, mending)
-    if inner.any() and mending.holes == "refuse":
+    _check_outer_loop(options.outer_loop, np.concatenate((surface.vertex[found.side], faulty)))
+    inner = _inner_loops(split, found, options)
+    if inner.any() and options.holes is Holes.REFUSE:
         _refuse_holes(split, found, inner)
     elif inner.any():
-        surface = without_digons(zipped(split.surface, found, inner, partner), sound)
+        surface = without_digons(zipped(split.surface, found, inner, split.across), sound)
         if surface is not split.surface:
             changed = split.surface.polygon[np.flatnonzero(surface.twin != split.surface.twin)]
             for number in np.unique(split.surface.chart[changed]):
                 split.add_note(int(number), "seams that end inside the chart were closed")
             split = split.with_surface(surface)
-            found = boundaries(surface, split.sound)
-            inner = _inner_loops(split, found, mending)
+            found = boundary_loops(surface, split.sound)
+            inner = _inner_loops(split, found, options)
         for number, holes in enumerate(np.bincount(found.chart_of_loop[inner], minlength=split.count).tolist()):
             if holes:
                 split.add_note(number, f"{holes} hole{'s' * (holes > 1)} filled for the solution")
         split = split.with_surface(filled(split.surface, found, inner))
-    return _cut_to_disks(split, mending)
+    return _cut_to_disks(split, options)
 
 
-def _inner_loops(split: Split, found: Boundaries, mending: Mending) -> Bools:
-    outer = found.outer_loops(split.count, mending.outer_loop, split.surface)
+def _check_outer_loop(wanted: Ints | None, allowed: Ints) -> None:
+    if wanted is None:
+        return
+    bad = wanted[~np.isin(wanted, allowed)]
+    if len(bad):
+        raise OptionError(f"outer_loop: vertices {listed(bad)} are on no boundary loop.", bad)
+
+
+def _inner_loops(split: Split, found: BoundaryLoops, options: SplitOptions) -> Bools:
+    outer = found.outer_loops(split.count, options.outer_loop, split.surface)
     inner = np.ones(len(found.length), dtype=bool)
     inner[outer[outer >= 0]] = False
     return inner
 
 
-def _refuse_holes(split: Split, found: Boundaries, inner: Bools) -> None:
+def _refuse_holes(split: Split, found: BoundaryLoops, inner: Bools) -> None:
     loops = np.flatnonzero(np.isin(found.chart_of_loop, found.chart_of_loop[inner]))
     first = split.surface.vertex[found.side[found.steps == 0]]
     edges = np.bincount(found.loop, minlength=len(inner))
@@ -71,16 +83,16 @@ def _refuse_holes(split: Split, found: Boundaries, inner: Bools) -> None:
     split.faults.note(loops, found.chart_of_loop[loops], tell)
 
 
-def _cut_to_disks(split: Split, mending: Mending) -> Split:
+def _cut_to_disks(split: Split, options: SplitOptions) -> Split:
     """Open closed charts and handles."""
     sound = split.sound
-    found = boundaries(split.surface, sound)
+    found = boundary_loops(split.surface, sound)
     genus = genera(split.surface, found, split.count)
     closed = np.bincount(found.chart_of_loop, minlength=split.count) == 0
     wanting = np.flatnonzero(sound & (closed | (genus > 0)))
     if not len(wanting):
         return split
-    if mending.closed is Closed.REFUSE:
+    if options.closed is Closed.REFUSE:
         for number in wanting.tolist():
             split.faults[number] = _closed_error(bool(closed[number]), int(genus[number]))
         return split

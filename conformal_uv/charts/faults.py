@@ -23,7 +23,7 @@ from ..errors import (
 from ..mesh.fans import corner_links, pinched_vertices
 from ..mesh.halfedges import joined_pairs
 from ..options import NonManifold
-from .seaming import SeamedMesh, crowded_pairs
+from .selected_part import SelectedPart, crowded_pairs
 
 __all__ = ["Faults", "by_chart", "note_crowded_edges", "note_pinched_vertices", "note_unusable_polygons"]
 
@@ -57,7 +57,7 @@ def by_chart(items: Ints, chart: Ints) -> Iterator[tuple[int, Ints]]:
         yield int(number), own
 
 
-def note_unusable_polygons(faults: Faults, seamed: SeamedMesh, finite: Bools, chart: Ints, name: Ints) -> None:
+def note_unusable_polygons(faults: Faults, part: SelectedPart, finite: Bools, chart: Ints, name: Ints) -> None:
     """Positions that are not finite, repeated vertices, polygons that stand twice.
 
     Parameters
@@ -65,10 +65,10 @@ def note_unusable_polygons(faults: Faults, seamed: SeamedMesh, finite: Bools, ch
     chart, name : (p,)
         Chart and index at the caller's of each polygon.
     """
-    corners, polygon = seamed.mesh.corners, seamed.sides.polygon
+    corners, polygon = part.mesh.corners, part.sides.polygon
     nowhere = np.flatnonzero(~finite[corners]) if not finite.all() else np.empty(0, dtype=np.int64)
     faults.note(corners[nowhere], chart[polygon[nowhere]], _nowhere)
-    repeating = _repeating(seamed)
+    repeating = _repeating(part)
     faults.note(
         name[repeating],
         chart[repeating],
@@ -76,7 +76,7 @@ def note_unusable_polygons(faults: Faults, seamed: SeamedMesh, finite: Bools, ch
             f"{len(own)} faces repeat a vertex: faces {listed(own)}. Remove the repeated corners.", own
         ),
     )
-    twice = _standing_twice(seamed)
+    twice = _standing_twice(part)
     faults.note(
         name[twice],
         chart[twice],
@@ -86,15 +86,15 @@ def note_unusable_polygons(faults: Faults, seamed: SeamedMesh, finite: Bools, ch
     )
 
 
-def note_crowded_edges(faults: Faults, seamed: SeamedMesh, chart: Ints, name: Ints) -> None:
+def note_crowded_edges(faults: Faults, part: SelectedPart, chart: Ints, name: Ints) -> None:
     """Edges of three or more polygons that are no seams."""
-    n = len(seamed.mesh.V)
-    sides = np.flatnonzero((seamed.sides.twin == -2) & ~seamed.seam[seamed.sides.edge])
+    n = len(part.mesh.V)
+    sides = np.flatnonzero((part.sides.twin == -2) & ~part.seam[part.sides.edge])
 
     def tell(own: Ints) -> ConformalUVError:
-        keys = seamed.sides.key[np.unique(seamed.sides.edge[own])]
+        keys = part.sides.key[np.unique(part.sides.edge[own])]
         places = ", ".join(f"({key // n}, {key % n})" for key in keys[:8])
-        faces = np.unique(name[seamed.sides.polygon[own]])
+        faces = np.unique(name[part.sides.polygon[own]])
         return NonManifoldError(
             f"{len(keys)} edges have three or more faces: edges {places}{' ...' if len(keys) > 8 else ''} of faces "
             f"{listed(faces)}.",
@@ -102,17 +102,17 @@ def note_crowded_edges(faults: Faults, seamed: SeamedMesh, chart: Ints, name: In
             ("remove the extra faces", "mark the edges as seams", CUT),
         )
 
-    faults.note(sides, chart[seamed.sides.polygon[sides]], tell)
+    faults.note(sides, chart[part.sides.polygon[sides]], tell)
 
 
-def note_pinched_vertices(faults: Faults, seamed: SeamedMesh, elsewhere: Bools, chart: Ints, name: Ints) -> Bools:
+def note_pinched_vertices(faults: Faults, part: SelectedPart, elsewhere: Bools, chart: Ints, name: Ints) -> Bools:
     """Vertices at which polygons touch without sharing an edge, (n,) bool.
 
     Seams do not pinch, nor does the border of the selection: no error is noted for vertices that other polygons
     use too (`elsewhere`, (n,)).
     """
-    corners, polygon, follow = seamed.mesh.corners, seamed.sides.polygon, seamed.sides.follow
-    pairs, extra = joined_pairs(seamed.sides.twin), crowded_pairs(seamed, np.ones_like(seamed.seam))
+    corners, polygon, follow = part.mesh.corners, part.sides.polygon, part.sides.follow
+    pairs, extra = joined_pairs(part.sides.twin), crowded_pairs(part, np.ones_like(part.seam))
     one, other = (np.concatenate(ends) for ends in zip(pairs, extra, strict=True))
     pinched = np.zeros(len(elsewhere), dtype=bool)
     pinched[pinched_vertices(corners, *corner_links(corners, follow, one, other), len(elsewhere))] = True
@@ -140,9 +140,9 @@ def _nowhere(own: Ints) -> ConformalUVError:
     )
 
 
-def _repeating(seamed: SeamedMesh) -> Ints:
+def _repeating(part: SelectedPart) -> Ints:
     """Polygons with a vertex at two corners."""
-    sizes, starts, corners = seamed.mesh.sizes, seamed.mesh.starts, seamed.mesh.corners
+    sizes, starts, corners = part.mesh.sizes, part.mesh.starts, part.mesh.corners
     found = [np.empty(0, dtype=np.int64)]
     for size in np.unique(sizes):
         same = np.flatnonzero(sizes == size)
@@ -151,12 +151,12 @@ def _repeating(seamed: SeamedMesh) -> Ints:
     return np.sort(np.concatenate(found))
 
 
-def _standing_twice(seamed: SeamedMesh) -> Ints:
+def _standing_twice(part: SelectedPart) -> Ints:
     """Polygons with the same edges as another.
 
     Across its edges such a polygon meets one and the same other, or crowds; only those are compared.
     """
-    sides, starts = seamed.sides, seamed.mesh.starts
+    sides, starts = part.sides, part.mesh.starts
     across = np.where(sides.twin >= 0, sides.polygon[sides.twin], sides.twin)
     crowded = across == -2
     low = np.minimum.reduceat(np.where(crowded, len(starts), across), starts[:-1])

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..operators import face_areas
 from ..options import Place
 from .chart import Chart, Unwrapped
-from .placement import placements
+from .packing import placements
 
 __all__ = ["pack_together"]
 
@@ -57,7 +57,7 @@ def pack_together(
     placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, image)
     out = [result.uv.copy() for result in results]
     for (number, chart), place in zip(charts, placed, strict=True):
-        own = np.unique(chart.corners)
+        own = np.unique(chart.corner)
         out[number][own] = np.asarray(place.center) + place.scale * results[number].uv[own]
     return out
 

@@ -9,17 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..linear.backends import choose_backend
-from ..options import Closed, DiskOptions, Holes, Laplacian, NonManifold, Orientation, Place, PlaceOptions
+from ..options import DiskOptions, Laplacian, Place, PlaceOptions, SplitOptions
 from ..progress import Callback
 from .arguments import Polygons, polygon_mesh, seam_pairs, selected_polygons, used_vertices, vertex_list
 from .chart import Chart, Unwrapped
 from .chart_mapper import ChartMapper, ChartSolution
 from .chart_meshes import ChartMesh, chart_meshes
 from .chart_progress import PLACING, SPLITTING, ChartProgress
-from .mending import Mending
-from .placement import Placement, placements
+from .disks import made_disks
+from .named_vertices import NamedVertices
+from .packing import Placement, placements
 from .splitting import split_into_charts
-from .vertex_options import VertexOptions
 
 __all__ = ["Unwrapper"]
 
@@ -31,8 +31,9 @@ class Unwrapper:
 
     Parameters
     ----------
-    V, polygons, seams, selection, holes, outer_loop, closed, nonmanifold, orientation, laplacian, backend, callback
-        As in `unwrap`, with the same errors. Charts are factorized when they are first mapped.
+    V, polygons, seams, selection, outer_loop, laplacian, backend, callback, options
+        As in `unwrap`, with the same errors; `options` are holes, closed, nonmanifold and orientation. Charts are
+        factorized when they are first mapped.
 
     Examples
     --------
@@ -50,30 +51,21 @@ class Unwrapper:
         *,
         seams: ArrayLike | None = None,
         selection: ArrayLike | None = None,
-        holes: str = "fill",
         outer_loop: Vertices = None,
-        closed: str = "refuse",
-        nonmanifold: str = "refuse",
-        orientation: str = "refuse",
         laplacian: str = "auto",
         backend: str = "auto",
         callback: Callback | None = None,
+        **options: Any,
     ) -> None:
         ChartProgress(callback).report("charts", 0.0)
         kind = Laplacian.of("laplacian", laplacian)
         choose_backend(backend)  # complains of what is not there before any work
         mesh, finite = polygon_mesh(V, polygons)
         selected = selected_polygons(selection, mesh)
-        self._corners, self._faces = len(mesh.corners), len(mesh.sizes)
+        self._corner_count, self._face_count = len(mesh.corners), len(mesh.sizes)
         self._used = used_vertices(mesh, selected)
-        mending = Mending(
-            holes=Holes.of("holes", holes),
-            closed=Closed.of("closed", closed),
-            nonmanifold=NonManifold.of("nonmanifold", nonmanifold),
-            orientation=Orientation.of("orientation", orientation),
-            outer_loop=vertex_list("outer_loop", outer_loop, self._used),
-        )
-        split = self._split = split_into_charts(mesh, finite, selected, seam_pairs(seams), mending)
+        how = SplitOptions(outer_loop=vertex_list("outer_loop", outer_loop, self._used), **options)
+        split = self._split = made_disks(split_into_charts(mesh, finite, selected, seam_pairs(seams), how), how)
         self._meshes = chart_meshes(split.mesh, split.surface, split.count)
         self._mappers = [
             ChartMapper(self._meshes[number], selected, split.faults.get(number), kind, backend)
@@ -98,7 +90,7 @@ class Unwrapper:
         """
         where = PlaceOptions(place=Place.of("place", place), margin=margin, rotation=rotation)
         how = DiskOptions(**options)
-        vertices = VertexOptions(
+        vertices = NamedVertices(
             vertex_list("center", center, self._used),
             vertex_list("boundary_vertex", boundary_vertex, self._used),
             vertex_list("pins", pins, self._used),
@@ -116,7 +108,7 @@ class Unwrapper:
         progress.report("packing", 1.0)
         return result
 
-    def _check_used(self, vertices: VertexOptions, solutions: list[ChartSolution], *, offered: bool) -> None:
+    def _check_used(self, vertices: NamedVertices, solutions: list[ChartSolution], *, offered: bool) -> None:
         """Raise OptionError on a center, boundary vertex or pin that no chart could use; pins may be only `offered`."""
         if not vertices:
             return
@@ -144,9 +136,9 @@ class Unwrapper:
         for number in np.flatnonzero(mapped).tolist():
             own = slice(self._meshes.first_vertex[number], self._meshes.first_virtual[number])
             z[self._meshes.site[own]] = _laid(solutions[number].z, placed[number], where.rotation)
-        uv = np.zeros((self._corners, 2))
+        uv = np.zeros((self._corner_count, 2))
         uv[split.corner] = z[surface.site[: len(split.corner)]].view(np.float64).reshape(-1, 2)
-        chart_of_face = np.full(self._faces, -1, dtype=np.int64)
+        chart_of_face = np.full(self._face_count, -1, dtype=np.int64)
         chart_of_face[split.selected] = surface.chart[: surface.real]
         done = np.append(mapped, False)[chart_of_face]
         return Unwrapped(uv, chart_of_face, done, self._charts(solutions, placed))

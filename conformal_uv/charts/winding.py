@@ -14,7 +14,7 @@ from ..mesh.polygon_sides import PolygonSides
 from ..mesh.polygons import PolygonMesh
 from ..options import Orientation
 from .faults import Faults
-from .seaming import SeamedMesh
+from .selected_part import SelectedPart
 
 __all__ = ["note_orientation", "turned", "untwisted"]
 
@@ -46,7 +46,7 @@ def note_orientation(faults: Faults, sign: Signs, chart: Ints, name: Ints) -> No
         faults.note(name[bad], chart[bad], tell)
 
 
-def untwisted(seamed: SeamedMesh, sign: Signs, chart: Ints) -> tuple[SeamedMesh, Signs]:
+def untwisted(part: SelectedPart, sign: Signs, chart: Ints) -> tuple[SelectedPart, Signs]:
     """Cut one-sided charts: signs spread from a first polygon breadth first, sides that still disagree are cut.
 
     The tree along which the signs spread stays uncut, so that a chart stays in one piece.
@@ -56,11 +56,11 @@ def untwisted(seamed: SeamedMesh, sign: Signs, chart: Ints) -> tuple[SeamedMesh,
     The mesh with those sides cut, and signs without 0.
     """
     p = len(sign)
-    one, other = seamed.joined
-    twisted = sign[seamed.sides.polygon[one]] == 0
+    one, other = part.joined
+    twisted = sign[part.sides.polygon[one]] == 0
     one, other = one[twisted], other[twisted]
-    f, g = seamed.sides.polygon[one], seamed.sides.polygon[other]
-    crossed = seamed.mesh.corners[one] == seamed.mesh.corners[other]
+    f, g = part.sides.polygon[one], part.sides.polygon[other]
+    crossed = part.mesh.corners[one] == part.mesh.corners[other]
     rows, columns = np.concatenate((f, g)), np.concatenate((g, f))
     graph = csr_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(p, p))
     parent = np.arange(p)
@@ -74,9 +74,9 @@ def untwisted(seamed: SeamedMesh, sign: Signs, chart: Ints) -> tuple[SeamedMesh,
         parent = parent[parent]
     filled = np.where(sign == 0, np.where(crossing, -1, 1), sign).astype(np.int8)
     wrong = crossed != (filled[f] != filled[g])
-    twin = seamed.twin.copy()
+    twin = part.twin.copy()
     twin[one[wrong]] = twin[other[wrong]] = -1
-    return replace(seamed, twin=twin), filled
+    return replace(part, twin=twin), filled
 
 
 def _crosses(f: Ints, g: Ints, crossed: NDArray[np.bool_], child: Ints, parent: Ints, p: int) -> NDArray[np.bool_]:
@@ -92,9 +92,9 @@ def _crosses(f: Ints, g: Ints, crossed: NDArray[np.bool_], child: Ints, parent: 
     return np.where(found, value[np.maximum(place, 0)], False)
 
 
-def turned(seamed: SeamedMesh, sign: Signs) -> tuple[SeamedMesh, Ints]:
+def turned(part: SelectedPart, sign: Signs) -> tuple[SelectedPart, Ints]:
     """The same polygons with those of sign -1 wound the other way, and the old corner of each corner."""
-    mesh, sides = seamed.mesh, seamed.sides
+    mesh, sides = part.mesh, part.sides
     corner = np.arange(len(mesh.corners))
     back = sign[sides.polygon] < 0
     ends = mesh.starts[sides.polygon] + mesh.starts[sides.polygon + 1] - 1
@@ -111,4 +111,4 @@ def turned(seamed: SeamedMesh, sign: Signs) -> tuple[SeamedMesh, Ints]:
 
     turned_sides = PolygonSides(sides.follow, sides.polygon, sides.key, sides.edge[side], renumbered(sides.twin))
     turned_mesh = PolygonMesh(mesh.V, mesh.corners[corner], mesh.starts)
-    return SeamedMesh(turned_mesh, turned_sides, seamed.seam, renumbered(seamed.twin)), corner
+    return SelectedPart(turned_mesh, turned_sides, part.seam, renumbered(part.twin)), corner

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import OptionError, listed
+from ..options import DiskOptions
 
-__all__ = ["ChartOptions", "VertexOptions"]
+__all__ = ["NamedVertices", "vertices_used"]
 
 Ints = NDArray[np.int64]
 
@@ -20,23 +21,8 @@ NEEDED = {
 }
 
 
-@dataclass(frozen=True)
-class ChartOptions:
-    """Options in the chart's own numbers, as DiskMapper.map takes them, and what is to be said about them."""
-
-    center: int | None = None
-    boundary_vertex: int | None = None
-    pins: tuple[int, int, int] | None = None
-    notes: list[str] = field(default_factory=list)
-
-    def used(self, vertices: Ints) -> dict[str, Ints]:
-        """The caller's vertices that are in use, by option; `vertices` (n,) as in `VertexOptions.of_chart`."""
-        own = {"center": [self.center], "boundary_vertex": [self.boundary_vertex], "pins": self.pins or []}
-        return {name: vertices[[v for v in taken if v is not None]] for name, taken in own.items()}
-
-
 @dataclass(frozen=True, eq=False)
-class VertexOptions:
+class NamedVertices:
     """Vertices in the caller's numbers, of all charts together."""
 
     center: Ints
@@ -62,8 +48,8 @@ class VertexOptions:
             if len(bad):
                 raise OptionError(f"{name}: no chart can use vertices {listed(bad)}; {NEEDED[name]}", bad)
 
-    def of_chart(self, vertices: Ints, boundary: Ints) -> ChartOptions:
-        """What a chart uses.
+    def of_chart(self, options: DiskOptions, vertices: Ints, boundary: Ints) -> tuple[DiskOptions, list[str]]:
+        """The options with the vertices that a chart uses, in its own numbers, and what is to be said about them.
 
         Parameters
         ----------
@@ -73,13 +59,14 @@ class VertexOptions:
             Its loop, in the chart's numbers.
         """
         if not self:
-            return ChartOptions()
+            return options, []
         notes: list[str] = []
         inside = np.ones(len(vertices), dtype=bool)
         inside[boundary] = False
         center = self._first("center", self.center, vertices, np.flatnonzero(inside), notes)
         rim = self._first("boundary_vertex", self.boundary_vertex, vertices, boundary, notes)
-        return ChartOptions(center, rim, self._pins(vertices, boundary, notes), notes)
+        pins = self._pins(vertices, boundary, notes)
+        return replace(options, center=center, boundary_vertex=rim, pins=pins), notes
 
     def _first(self, name: str, wanted: Ints, vertices: Ints, allowed: Ints, notes: list[str]) -> int | None:
         """The first wanted vertex among those allowed; a note on those that lie elsewhere in the chart or are more
@@ -110,3 +97,9 @@ class VertexOptions:
             told = ", ".join(str(vertices[boundary[at]]) for at in (a, b, c))
             notes.append(f"pins taken in the order of the boundary: {told}")
         return int(boundary[a]), int(boundary[b]), int(boundary[c])
+
+
+def vertices_used(options: DiskOptions, vertices: Ints) -> dict[str, Ints]:
+    """The caller's vertices that a chart's options name, by option; `vertices` as in `NamedVertices.of_chart`."""
+    own = {"center": [options.center], "boundary_vertex": [options.boundary_vertex], "pins": options.pins or []}
+    return {name: vertices[[v for v in taken if v is not None]] for name, taken in own.items()}
