@@ -6,8 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv import PolygonMesh, triangulate
-from conformal_uv.operators.orientation_sign import orientation_signs
+from conformal_uv import PolygonMesh, flipped_polygons
 
 from .edit_mode import object_mode, target_objects
 from .mesh_io import read_mesh, read_uv, write_selection
@@ -31,11 +30,7 @@ def folded_faces(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
     if layer is None or not len(mesh.polygons):
         return np.zeros(len(mesh.polygons), dtype=bool)
     arrays = read_mesh(mesh, layer.name)
-    _, face, corner = triangulate(
-        PolygonMesh(arrays.V.astype(np.float64), arrays.corners.astype(np.int64), arrays.starts.astype(np.int64))
-    )
-    uv = np.nan_to_num(read_uv(mesh, layer.name).astype(np.float64))
-    signs = orientation_signs(uv, np.ascontiguousarray(corner.T.astype(np.int32)))
+    polygons = PolygonMesh(arrays.V.astype(np.float64), arrays.corners.astype(np.int64), arrays.starts.astype(np.int64))
     folded = np.zeros(len(mesh.polygons), dtype=bool)
-    folded[face[signs <= 0]] = True
+    folded[flipped_polygons(polygons, read_uv(mesh, layer.name))] = True
     return folded & ~arrays.hidden

@@ -64,9 +64,15 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
         """Solve, then write; a mesh that can not be mapped is left as it was."""
         import numpy as np
 
-        from conformal_uv import MeshError, OptionError, PolygonMesh, sphere_map, triangulate
-        from conformal_uv.errors import renumbered
-        from conformal_uv.sphere.layout import equirectangular, octahedral
+        from conformal_uv import (
+            MeshError,
+            OptionError,
+            PolygonMesh,
+            equirectangular,
+            octahedral,
+            sphere_map,
+            triangulate,
+        )
 
         layer = uv_layer_name(ob.data, "")
         if self.uv != "NONE" and not has_room(ob.data, layer):
@@ -79,7 +85,7 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
         try:
             result = sphere_map(V[used], F.reshape(-1, 3), method=self.method.lower(), rotation="surface")
         except MeshError as error:
-            raise renumbered(error, polygon, used) from error
+            raise error.renumbered(polygon, used) from error
         positions, xyz = V.copy(), np.zeros_like(V)
         positions[used], xyz[used] = result.around_surface, result.xyz
         write_shape_key(ob, SHAPE_KEY, positions)

@@ -54,8 +54,8 @@ if TYPE_CHECKING:
     )
     from .optimize import AugmentedLagrangianStep, NewtonStep
     from .progress import Callback
-    from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, unwrap_numbers
-    from .sphere import SphereMap, sphere_map
+    from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, flipped_polygons, unwrap_numbers
+    from .sphere import SphereMap, equirectangular, octahedral, sphere_map
 
 __all__ = [
     "AugmentedLagrangianStep",
@@ -97,9 +97,12 @@ __all__ = [
     "disk_map",
     "distortion",
     "distortion_numbers",
+    "equirectangular",
     "face_areas",
+    "flipped_polygons",
     "gradient",
     "mixed_voronoi_areas",
+    "octahedral",
     "pack_together",
     "sphere_map",
     "triangulate",
@@ -147,9 +150,12 @@ _HOME = {
     "disk_map": "disk",
     "distortion": "operators",
     "distortion_numbers": "report",
+    "equirectangular": "sphere",
     "face_areas": "operators",
+    "flipped_polygons": "report",
     "gradient": "operators",
     "mixed_voronoi_areas": "operators",
+    "octahedral": "sphere",
     "pack_together": "charts",
     "sphere_map": "sphere",
     "triangulate": "mesh.triangulate",

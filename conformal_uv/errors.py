@@ -24,7 +24,6 @@ __all__ = [
     "TopologyError",
     "UnreferencedVertexError",
     "listed",
-    "renumbered",
 ]
 
 
@@ -84,6 +83,23 @@ class ConformalUVError(Exception):
             return self.message
         sentence = ", or ".join([", ".join(said[:-1]), said[-1]] if len(said) > 1 else said)
         return f"{self.message} {sentence[0].upper()}{sentence[1:]}."
+
+    def renumbered(self, faces: Sequence[int], vertices: Sequence[int]) -> ConformalUVError:
+        """The same error for one who numbers faces and vertices otherwise.
+
+        Parameters
+        ----------
+        faces, vertices : sequences of int
+            The other number of each face and vertex; several faces may have one.
+        """
+        text, own = self.message, listed(self.indices)
+        for kind, name in (("faces", faces), ("vertices", vertices)):
+            if self.indices and f"{kind} {own}" in text:
+                other = sorted({int(name[index]) for index in self.indices})
+                text = text.replace(f"{kind} {own}", f"{kind} {listed(other)}")
+                text = text.replace(f"{len(self.indices)} {kind}", f"{len(other)} {kind}")
+                return type(self)(text, other, self.ways)
+        return self
 
 
 class MeshError(ConformalUVError, ValueError):
@@ -147,21 +163,3 @@ def listed(indices: Iterable[int], most: int = 8) -> str:
     values = [int(i) for i in indices]
     text = ", ".join(str(i) for i in islice(values, most))
     return text if len(values) <= most else f"{text}, ... ({len(values)} in all)"
-
-
-def renumbered(error: ConformalUVError, faces: Sequence[int], vertices: Sequence[int]) -> ConformalUVError:
-    """The same error for one who numbers faces and vertices otherwise.
-
-    Parameters
-    ----------
-    faces, vertices : sequences of int
-        The other number of each face and vertex; several faces may have one.
-    """
-    text, own = error.message, listed(error.indices)
-    for kind, name in (("faces", faces), ("vertices", vertices)):
-        if error.indices and f"{kind} {own}" in text:
-            other = sorted({int(name[index]) for index in error.indices})
-            text = text.replace(f"{kind} {own}", f"{kind} {listed(other)}")
-            text = text.replace(f"{len(error.indices)} {kind}", f"{len(other)} {kind}")
-            return type(error)(text, other, error.ways)
-    return error

@@ -9,10 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .charts import Chart, Unwrapped
+from .mesh.polygons import PolygonMesh
+from .mesh.triangulate import triangulate
 from .operators import Distortion
+from .operators.orientation_sign import orientation_signs
 from .operators.wirtinger import planar_sides, signed_double_areas
 
-__all__ = ["DistortionNumbers", "UnwrapNumbers", "distortion_numbers", "unwrap_numbers"]
+__all__ = ["DistortionNumbers", "UnwrapNumbers", "distortion_numbers", "flipped_polygons", "unwrap_numbers"]
 
 
 @dataclass(frozen=True)
@@ -158,3 +161,22 @@ def _enlarged(chart: Chart, stored: NDArray[np.float64]) -> float:
 def _area(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> float:
     z = np.ascontiguousarray(uv, dtype=np.float64).view(np.complex128).reshape(-1)
     return 0.5 * float(np.abs(signed_double_areas(planar_sides(z, triangles.T.astype(np.int32)))).sum())
+
+
+def flipped_polygons(mesh: PolygonMesh, corner_uv: NDArray[np.floating]) -> NDArray[np.int64]:
+    """Polygons with a triangle of non-positive area in texture coordinates, by exact signs of the numbers given.
+
+    Parameters
+    ----------
+    mesh : PolygonMesh
+    corner_uv : (k, 2)
+        Coordinates of each polygon corner, in single or double precision; what is not finite counts as 0.
+
+    Returns
+    -------
+    (q,) int64, ascending
+    """
+    _, polygon, corner = triangulate(mesh)
+    uv = np.nan_to_num(np.asarray(corner_uv, dtype=np.float64))
+    signs = orientation_signs(uv, np.ascontiguousarray(corner.T.astype(np.int32)))
+    return np.unique(polygon[signs <= 0])

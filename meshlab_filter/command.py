@@ -9,11 +9,11 @@ from typing import Annotated, Any
 import typer
 
 from conformal_uv import ConformalUVError, OptionError, Remedy
-from conformal_uv.cli.stages import Stages
-from conformal_uv.cli.summary import print_summary
-from conformal_uv.cli.terminal import plain
+from conformal_uv.console.interrupt import interruptible
+from conformal_uv.console.stages import Stages
+from conformal_uv.console.summary import print_summary
+from conformal_uv.console.terminal import plain
 from conformal_uv.files import check_distinct, check_place, is_standard_output, replaced_file
-from conformal_uv.interrupt import interruptible
 from conformal_uv.options import Closed, Holes, Method, NonManifold, Orientation, Repair
 
 from .conversion import CHECKER, Conversion, check_filter_script, convert

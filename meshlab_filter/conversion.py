@@ -10,8 +10,8 @@ from typing import Any
 from xml.etree import ElementTree
 
 from conformal_uv import FileFormatError
-from conformal_uv.cli.stages import Stages
-from conformal_uv.cli.summary import unwrapped_summary
+from conformal_uv.console.stages import Stages
+from conformal_uv.console.summary import unwrapped_summary
 
 from .checker import write_checker
 from .disk import map_current_mesh

@@ -7,7 +7,7 @@ import logging
 import sys
 from collections.abc import Callable
 
-from conformal_uv.interrupt import quiet_interrupt
+from conformal_uv.console.interrupt import quiet_interrupt
 
 __all__ = ["main"]
 

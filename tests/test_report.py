@@ -72,3 +72,19 @@ def test_the_command_and_the_filter_show_these_numbers(tmp_path) -> None:
     filtered = conformal_disk(ms, method="linear")
     assert filtered["angle_error_rms"] == pytest.approx(d.angle_rms, rel=1e-9)
     assert filtered["lost_to_float32"] == expected.lost_to_float32.sum()
+
+
+def test_flipped_polygons_by_exact_signs() -> None:
+    V = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0.0]])
+    mesh = cuv.PolygonMesh(V, np.array([0, 1, 4, 3, 1, 2, 5, 4]), np.array([0, 4, 8]))
+    uv = V[mesh.corners, :2]
+    assert cuv.flipped_polygons(mesh, uv).tolist() == []
+    flat = uv.astype(np.float32)
+    flat[4:, 0] = 1.0  # the second without width
+    assert cuv.flipped_polygons(mesh, flat).tolist() == [1]
+    assert cuv.flipped_polygons(mesh, uv[:, ::-1]).tolist() == [0, 1]
+    hair = uv.copy()
+    hair[[5, 6], 0] = np.nextafter(1.0, 2.0)  # the least width that a double can hold
+    assert cuv.flipped_polygons(mesh, hair).tolist() == []
+    hair[[5, 6]] = np.nan
+    assert cuv.flipped_polygons(mesh, hair).tolist() == [1]

@@ -10,13 +10,13 @@ from typing import Annotated, ParamSpec
 import typer
 
 from .._version import __version__
+from ..console.interrupt import interruptible
+from ..console.terminal import plain
 from ..errors import ConformalUVError, Remedy
-from ..interrupt import interruptible
 from .disk import disk
 from .report import report
 from .sample import sample
 from .sphere import sphere
-from .terminal import plain
 
 __all__ = ["app"]
 

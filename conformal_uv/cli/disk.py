@@ -9,6 +9,9 @@ import numpy as np
 import typer
 
 from ..charts import Unwrapped, unwrap
+from ..console.stages import Stages
+from ..console.summary import print_summary, unwrapped_summary
+from ..console.terminal import plain
 from ..errors import Remedy
 from ..files import read_mesh, write_mesh
 from ..options import (
@@ -28,9 +31,6 @@ from .figure import draw_unwrapped
 from .numbers import three_numbers
 from .outputs import Outputs
 from .seams import read_seams
-from .stages import Stages
-from .summary import print_summary, unwrapped_summary
-from .terminal import plain
 
 __all__ = ["disk"]
 

@@ -6,7 +6,7 @@ import importlib.util
 import sys
 from collections.abc import Callable
 
-from ..interrupt import quiet_interrupt
+from ..console.interrupt import quiet_interrupt
 
 __all__ = ["main"]
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..console.stages import Stages
 from ..errors import ConformalUVError
 from ..files import check_distinct, check_place, check_writable, is_standard_output, replaced_file
 from .figure import check_drawable
-from .stages import Stages
 
 __all__ = ["Outputs"]
 

@@ -9,6 +9,8 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
+from ..console.stages import Stages
+from ..console.summary import distortion_summary, print_rows
 from ..errors import MeshError
 from ..files import MeshFile, read_mesh
 from ..mesh import Surface
@@ -18,8 +20,6 @@ from ..operators.distortion import distortion_of
 from ..operators.laplacian import cotangent_weights
 from ..report import distortion_numbers
 from .outputs import Outputs
-from .stages import Stages
-from .summary import distortion_summary, print_rows
 
 __all__ = ["report"]
 

@@ -12,10 +12,10 @@ import typer
 from numpy.typing import NDArray
 
 from .. import samples
+from ..console.terminal import plain
 from ..files import MeshFile, write_mesh
 from ..mesh.polygons import PolygonMesh
 from .outputs import Outputs
-from .terminal import plain
 
 __all__ = ["sample"]
 

@@ -11,6 +11,8 @@ import typer
 from numpy.typing import NDArray
 
 from .._version import __version__
+from ..console.stages import Stages
+from ..console.summary import angles_text, distortion_summary, iterations_text, print_rows
 from ..files import MeshFile, read_mesh, write_mesh
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangulate import triangulate
@@ -21,8 +23,6 @@ from ..sphere.layout import equirectangular, octahedral
 from .figure import draw_sphere_map
 from .numbers import three_numbers
 from .outputs import Outputs
-from .stages import Stages
-from .summary import angles_text, distortion_summary, iterations_text, print_rows
 
 __all__ = ["sphere"]
 
