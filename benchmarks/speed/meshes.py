@@ -11,12 +11,11 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import ConvexHull
 
 from conformal_uv.files import read_mesh
 from conformal_uv.mesh.triangulate import triangulate
 from conformal_uv.samples import terrain
-
-from ..sphere_against_lapy import ellipsoid
 
 __all__ = ["FAMILIES", "from_file", "save_mesh", "subdivided"]
 
@@ -41,6 +40,18 @@ def made(family: str, size: int, file: Path | None = None) -> Mesh:
     }
     vertices, faces = makers[family]()
     return np.ascontiguousarray(vertices, dtype=np.float64), np.ascontiguousarray(faces, dtype=np.int64)
+
+
+def ellipsoid(count: int) -> Mesh:
+    """Axes 1 : 1.5 : 2.5 over the convex hull of spiral points of the sphere."""
+    k = np.arange(count) + 0.5
+    z, turn = 1 - 2 * k / count, np.pi * (1 + np.sqrt(5)) * k
+    ring = np.sqrt(1 - z * z)
+    P = np.column_stack((ring * np.cos(turn), ring * np.sin(turn), z))
+    F = ConvexHull(P).simplices.astype(np.int64)
+    inward = np.linalg.det(P[F]) < 0
+    F[inward] = F[inward][:, ::-1]
+    return P * [1.0, 1.5, 2.5], F
 
 
 def from_file(path: Path) -> Mesh:

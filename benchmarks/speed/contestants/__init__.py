@@ -57,6 +57,7 @@ def _all() -> list[Contestant]:
     for method in ("linear", "newton"):
         found.append(Contestant(f"again-{method}", "again", {"method": method, "backend": "cholmod"}, "again"))
     found += [
+        Contestant("filter", "meshlab", {"method": "conformal disk"}, "ours", needs="pymeshlab"),
         Contestant("libigl-harmonic", "libigl", {"method": "harmonic"}, needs="libigl"),
         Contestant("libigl-lscm", "libigl", {"method": "lscm"}, target="free", needs="libigl"),
         Contestant("meshlab-harmonic", "meshlab", {"method": "harmonic"}, needs="pymeshlab"),

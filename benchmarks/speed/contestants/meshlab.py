@@ -1,4 +1,4 @@
-"""pymeshlab: its harmonic map to the circle by arc length, and its least squares conformal map."""
+"""In pymeshlab: its harmonic map to the circle by arc length, its least squares conformal map, and our filter."""
 
 from __future__ import annotations
 
@@ -16,6 +16,10 @@ def run(arrays: Arrays, stage: Stage, *, method: str) -> Outcome:
     stage("filter")
     if method == "harmonic":
         ms.compute_texcoord_parametrization_harmonic(harm_function=1)
+    elif method == "conformal disk":
+        from meshlab_filter import compute_texcoord_parametrization_conformal_disk
+
+        compute_texcoord_parametrization_conformal_disk(ms)
     else:
         ms.compute_texcoord_parametrization_least_squares_conformal_maps()
     stage("copying")
