@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import io
-import zipfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
-from numpy.lib import format as npy
 from numpy.typing import NDArray
 
 from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import ALWAYS_TAKEN, MOST_PACKED, checked_mesh, foreign_parser
+from conformal_uv.files.checks import ALWAYS_TAKEN, DAMAGED, MOST_PACKED, checked_mesh, foreign_parser
 from conformal_uv.files.corner_uv import filled_corner_uv, vertex_uv
 from conformal_uv.files.mesh_file import MeshFile
 
@@ -26,14 +25,15 @@ def read_npz(path: Path, data: bytes) -> MeshFile:
 
     Texture coordinates are taken from corner_uv (k, 2), else from uv (n, 2).
     """
-    with foreign_parser(path, "npz"), zipfile.ZipFile(io.BytesIO(data)) as archive:
-        members = {name.removesuffix(".npy"): name for name in archive.namelist()}
-        claimed = sum(archive.getinfo(members[name]).file_size for name in NAMES if name in members)
+    with foreign_parser(path, "npz"), np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        if not isinstance(archive, np.lib.npyio.NpzFile):
+            raise FileFormatError(f"{path}: one array, not an archive; save V and F with numpy.savez")
+        claimed = sum(info.file_size for info in archive.zip.infolist() if info.filename.removesuffix(".npy") in NAMES)
         if claimed > max(MOST_PACKED * len(data), ALWAYS_TAKEN):
             raise FileFormatError(
                 f"{path}: {len(data)} bytes that claim to hold {claimed}; the archive is damaged or no mesh"
             )
-        arrays = {name: _array(path, archive, members[name]) for name in NAMES if name in members}
+        arrays = {name: _array(path, archive, name) for name in NAMES if name in archive.files}
     V = _numbers(path, arrays, "V", "(n, 3)")
     if "F" in arrays and "corners" not in arrays:
         F = _whole(path, arrays, "F", 2)
@@ -67,22 +67,15 @@ def write_npz(stream: BinaryIO, source: MeshFile, corner_uv: NDArray[np.float64]
     np.savez(stream, allow_pickle=False, **arrays)
 
 
-def _array(path: Path, archive: zipfile.ZipFile, member: str) -> NDArray[Any]:
-    """One array."""
-    raw = archive.read(member)
-    stream = io.BytesIO(raw)
-    version = npy.read_magic(stream)
-    read_header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
-    shape, fortran, dtype = read_header(stream)
-    if dtype.hasobject or dtype.kind not in "iuf":
-        raise FileFormatError(f"{path}: {member!r} holds {dtype}, not real numbers; save plain numpy arrays")
-    count = 1
-    for extent in shape:
-        count *= int(extent)
-    if count < 0 or count * dtype.itemsize > len(raw) - stream.tell():
-        raise FileFormatError(f"{path}: {member!r} is cut short: {shape} of {dtype} in {len(raw)} bytes")
-    values = np.frombuffer(raw, dtype, count, stream.tell())
-    return values.reshape(shape, order="F" if fortran else "C")
+def _array(path: Path, archive: Mapping[str, NDArray[Any]], name: str) -> NDArray[Any]:
+    """One array, which numpy allocates by its header and reads from what is there."""
+    try:
+        array = archive[name]
+    except MemoryError as error:
+        raise FileFormatError(f"{path}: {name!r} claims more numbers than fit into memory; {DAMAGED}") from error
+    if array.dtype.kind not in "iuf":
+        raise FileFormatError(f"{path}: {name!r} holds {array.dtype}, not real numbers; save plain numpy arrays")
+    return array
 
 
 def _present(path: Path, arrays: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
