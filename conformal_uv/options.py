@@ -94,7 +94,12 @@ class Repair(Choice):
     """What becomes of folded triangles."""
 
     AUTO = "auto"
+    ALWAYS = "always"
     NEVER = "never"
+
+    @classmethod
+    def _joint(cls) -> str:
+        return ", "
 
 
 class Laplacian(Choice):

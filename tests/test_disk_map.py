@@ -510,7 +510,7 @@ PLATE = meshes.plate(3, 3)  # loop 0 1 2 3 7 11 15 14 13 12 8 4; interior 5 6 9 
         ({"method": "spectral"}, "method is 'spectral'; choose linear or newton or augmented-lagrangian"),
         ({"objective": "area"}, "objective is 'area'; choose conformal or dirichlet"),
         ({"pin_mode": "soft"}, "pin_mode is 'soft'; choose moebius or constraint"),
-        ({"repair": "always"}, "repair is 'always'; choose auto or never"),
+        ({"repair": "sometimes"}, "repair is 'sometimes'; choose auto, always, never"),
         ({"laplacian": "graph"}, "laplacian is 'graph'; choose auto, cotan, intrinsic-delaunay"),
         ({"method": "augmented-lagrangian", "pin_mode": "moebius"}, "takes its pins as constraints"),
         ({"method": "linear", "pin_mode": "constraint"}, "linear method does not optimise"),

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from conformal_uv.disk.gauge import CentreGauge
 from conformal_uv.disk.harmonic_measure import CentredMeasure, _balanced, angles_of_measure
-from conformal_uv.disk.newton import _gaps, _spread_apart
+from conformal_uv.disk.newton import _gaps, in_order
 from conformal_uv.mesh import PolygonMesh, Surface
 from conformal_uv.operators.laplacian import intrinsic_geometry
 from conformal_uv.optimize import augmented_lagrangian, truncated_cg
@@ -121,19 +121,20 @@ def test_curvature_of_the_gauge_is_minus_that_of_its_constraints() -> None:
     np.testing.assert_allclose(gauge.curvature(theta, gradient), expected, atol=1e-9)
 
 
-def test_neighbours_that_a_step_brings_too_close_are_pushed_apart() -> None:
-    """One narrow gap among thousands: the others' steps stay, and the gap keeps a part of its width."""
+def test_a_step_keeps_the_order_of_the_boundary_and_moves_the_others_as_it_says() -> None:
     n = 4000
     theta = 2.0 * np.pi / n * np.arange(n)
-    direction = np.zeros(n)
-    direction[100] = 3.0 * np.pi / n  # past its neighbour
-    moved = _spread_apart(theta, direction)
-    gaps = _gaps(theta + moved)
-    assert _gaps(theta + direction).min() < 0.0 < gaps.min()
-    np.testing.assert_array_equal(moved[200:-200], 0.0)
-    assert moved[100] < direction[100] and moved[101] > 0.0  # each gives way
-    assert moved.sum() == pytest.approx(direction.sum())
-    np.testing.assert_array_equal(_spread_apart(theta, 0.1 * direction), 0.1 * direction)
+    step = np.zeros(n)
+    step[100] = 3.0 * np.pi / n  # past its neighbour
+    gaps = _gaps(in_order(theta, step))
+    assert _gaps(theta + step).min() < 0.0 < gaps.min()
+    others = np.delete(np.arange(n), [99, 100])  # the gaps beside the vertex
+    np.testing.assert_allclose(gaps[others], 2.0 * np.pi / n, rtol=1e-3)
+    np.testing.assert_array_equal(in_order(theta, 0.1 * step), theta + 0.1 * step)
+    for length in (1e-3, 1e-4):  # to first order it is the step, whatever its length
+        np.testing.assert_allclose(in_order(theta, length * step), theta + length * step, atol=1e-18 / length)
+    far = in_order(theta, 1e6 * step)
+    assert np.isfinite(far).all() and _gaps(far).min() >= 0.0 and _gaps(far).sum() == pytest.approx(2.0 * np.pi)
 
 
 def test_the_puncture_is_a_vertex_of_six_edges() -> None:

@@ -16,9 +16,10 @@ from ..operators.orientation_sign import flipped_faces
 from ..options import DiskOptions, Laplacian, Method, Objective, Repair
 from ..progress import Callback, Progress
 from .anchors import anchored
+from .embedding import unfolded, with_distinct_boundary
 from .harmonic_measure import CentredMeasure, centred_measure
 from .placement import inside_disk, place_center, place_pins
-from .repair import recentred, repair_cost, repaired
+from .repair import recentred, repair_cost
 from .result import DiskMap, disk_map_result
 from .solution import Solution, solve_augmented_lagrangian, solve_linear, solve_newton
 
@@ -87,13 +88,17 @@ class DiskMapper:
         if not solution.converged:
             log.warning("%s stopped before its tolerance, after %d rows", options.method, len(solution.history))
         progress("placement", 0.0)
+        fixed = self._held(options)
         z, flipped, center = self._placed(solution, options)
+        distinct = with_distinct_boundary(z, self.boundary, fixed)
+        if distinct is not z:
+            z, flipped = distinct, flipped_faces(distinct, self.surface.corners)
         cost = None
-        if len(flipped) and options.repair is Repair.AUTO and options.method is not Method.AUGMENTED_LAGRANGIAN:
+        if len(flipped) and options.repair is not Repair.NEVER and solution.problem is not None:
             corners, folded, before = self.surface.corners, z, flipped
-            z = repaired(self.surface, z, flipped, self.boundary, progress)
+            z = unfolded(self.surface, solution.problem, z, flipped, fixed, options.repair, progress)
             if z is not folded:
-                z = inside_disk(recentred(z, center, corners))
+                z = recentred(z, center, corners) if options.pins is None else z
                 flipped = flipped_faces(z, corners)
                 cost = repair_cost(self.surface, folded, z, before, flipped)
             center = center if center is not None and z[center] == 0.0 else None
@@ -130,6 +135,12 @@ class DiskMapper:
             self._factorized[kind][0].report_to(progress)
         return self._factorized[kind]
 
+    def _held(self, options: DiskOptions) -> NDArray[np.int64]:
+        """The boundary vertices whose places the options name."""
+        if options.pins is not None:
+            return np.array(options.pins)
+        return np.array([self.boundary[0] if options.boundary_vertex is None else options.boundary_vertex])
+
     def _placed(
         self, solution: Solution, options: DiskOptions
     ) -> tuple[NDArray[np.complex128], NDArray[np.int64], int | None]:
@@ -139,7 +150,8 @@ class DiskMapper:
             z = inside_disk(solution.z)
             return z, flipped_faces(z, corners), None
         if options.pins is not None:
-            return *place_pins(solution.problem, corners, solution.z, options.pins), None
+            apart = with_distinct_boundary(solution.z, self.boundary, self.boundary[:1])  # pins that crowd, too
+            return *place_pins(solution.problem, corners, apart, options.pins), None
         center = options.center
         if center is None and solution.center is not None and abs(solution.z[solution.center]) < 1.0:
             center = solution.center  # where crowding has not swept it onto the circle

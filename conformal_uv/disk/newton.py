@@ -17,20 +17,18 @@ from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge
 from .tangent import Tangent
 
-__all__ = ["NewtonResult", "minimise_boundary_energy"]
+__all__ = ["NewtonResult", "in_order", "minimise_boundary_energy"]
 
 Real = NDArray[np.float64]
 log = logging.getLogger(__name__)
 
 EPS = np.finfo(np.float64).eps
-GAP_KEPT = 0.1  # of the angle between two neighbours, what a step leaves at the least
-SHORTEST_STEP = 0.05  # of a Newton direction; neighbours that allow no more are linked
-SMALLEST_GAP = 1e-12  # radians; below it neighbours are linked from the start
+TINY = np.finfo(np.float64).tiny
+LINEAR_TO = 0.2  # of the angle between two neighbours, to which a step closes it as it says; beyond, less and less
+SMALLEST_GAP = 1e-12  # radians; neighbours as near as that are linked
 LEAST_FORCING = 1e-3  # of the gradient is left by a direction; the energy is so nearly quadratic that this pays
 LAST_FORCING = 1e-5  # and by the last one,
 LAST_PART = 0.7  # of the tolerance; the rest is for what is not quadratic
-NEARLY_WHOLE = 0.5  # of a Newton direction; neighbours that allow so much are moved apart to allow all of it
-SPREADINGS = 10  # rounds of moving neighbours apart
 
 
 class NewtonResult(NamedTuple):
@@ -54,8 +52,9 @@ def minimise_boundary_energy(
 ) -> NewtonResult:
     """Minimise the energy over the boundary angles under the gauge.
 
-    The energy never rises and the order of the boundary is never broken: neighbours that want to change places are
-    linked, and move together from then on unless the energy would fall by parting them. The iteration ends when the
+    The energy never rises and the order of the boundary is never broken: a step that would make neighbours change
+    places brings them nearer by a factor instead; where that has brought them together for doubles they are linked,
+    and move together from then on unless the energy would fall by parting them. The iteration ends when the
     norm of the gradient, projected onto what gauge and links leave free, is at most `tolerance`, `relative_tolerance`
     times what it was at first, or the rounding of its terms, when no step lowers the energy any more, or after
     `max_iterations`.
@@ -89,9 +88,9 @@ def minimise_boundary_energy(
         if norm <= tolerance or iteration == max_iterations:
             break
         direction, cg_steps = _newton_direction(energy, gauge, tangent, tolerance, partial(progress, "newton", reached))
-        blocking = _blocking(energy.theta, direction)
-        if blocking.any() and (links | blocking).sum() <= len(links) - 3:
-            links = links | blocking
+        closed = ~links & (_gaps(energy.theta) < SMALLEST_GAP) & (np.roll(direction, -1) < direction)
+        if closed.any() and (links | closed).sum() <= len(links) - 3:
+            links = links | closed
             continue
         found = _line_search(energy, gauge, tangent, direction)
         if found is None:
@@ -122,25 +121,21 @@ def _newton_direction(
 def _line_search(
     energy: BoundaryEnergy, gauge: Gauge, tangent: Tangent, direction: Real
 ) -> tuple[float, BoundaryEnergy] | None:
-    """From the longest step that keeps the order."""
-    room = _room(energy.theta, direction)
-    if room.min() > NEARLY_WHOLE and 0 < 1000 * np.count_nonzero(room < 1.0) <= len(room):
-        direction = tangent.project(_spread_apart(energy.theta, direction))
+    """From the whole step, along a curve that keeps the order of the boundary."""
     slope = float(energy.gradient @ direction)
     norm = np.linalg.norm(tangent.project(energy.gradient))
     degrees = energy.problem.Lbb.diagonal()
     noise = float(EPS) * (64.0 * (abs(energy.value) + np.pi) + 4.0 * float(np.linalg.norm(degrees)))
 
     def move(length: float) -> BoundaryEnergy:
-        theta = gauge.restore(energy.theta + length * direction)
+        theta = gauge.restore(in_order(energy.theta, length * direction))
         return BoundaryEnergy(energy.problem, theta, minus_area=energy.minus_area)
 
     def gradient_falls(there: BoundaryEnergy) -> bool:
         tangent_there = Tangent(gauge, there.theta, tangent.links)
         return bool(np.linalg.norm(tangent_there.project(there.gradient)) < norm)
 
-    length = min(1.0, float(_room(energy.theta, direction).min()))
-    return line_search(energy.value, slope, move, gradient_falls, length=length, noise=noise)
+    return line_search(energy.value, slope, move, gradient_falls, length=1.0, noise=noise)
 
 
 def _gaps(theta: Real) -> Real:
@@ -150,28 +145,21 @@ def _gaps(theta: Real) -> Real:
     return gap
 
 
-def _room(theta: Real, direction: Real) -> Real:
-    """For every gap, the step along the direction that leaves GAP_KEPT of it, (nb,)."""
-    closing = direction - np.roll(direction, -1)
-    room = np.full(len(theta), np.inf)
-    np.divide((1.0 - GAP_KEPT) * _gaps(theta), closing, out=room, where=closing > 1e-14 * np.abs(direction).max())
-    return room
+def in_order(theta: Real, step: Real) -> Real:
+    """theta + step where that keeps the order of the angles, else a curve that begins so and never breaks it.
 
-
-def _spread_apart(theta: Real, direction: Real) -> Real:
-    """The direction, with neighbours pushed apart that the whole step would bring too close together.
-
-    A few narrow gaps among thousands, at corners of the boundary, need not shorten the step of all the others.
+    A gap that the step would close to less than a part of itself closes exponentially: twice differentiable but for
+    one point, and any step, however long, moves all other vertices as it says.
     """
-    gaps, moved = _gaps(theta), direction
-    for _ in range(SPREADINGS):
-        lack = np.maximum(2.0 * GAP_KEPT * gaps - (gaps + np.roll(moved, -1) - moved), 0.0)
-        if not lack.any():
-            break
-        moved = moved - 0.5 * lack + 0.5 * np.roll(lack, 1)
-    return moved
-
-
-def _blocking(theta: Real, direction: Real) -> NDArray[np.bool_]:
-    """Gaps that would stop the step almost at once."""
-    return _room(theta, direction) < SHORTEST_STEP
+    gaps = _gaps(theta)
+    change = np.roll(step, -1) - step
+    least = (LINEAR_TO - 1.0) * np.maximum(gaps, 0.0)
+    closing = change < least
+    if not closing.any():
+        return theta + step
+    kept = np.maximum(gaps + change, 0.0)
+    wide = closing & (gaps > TINY)
+    beyond = np.maximum(change[wide] - least[wide], -700.0 * gaps[wide]) / (LINEAR_TO * gaps[wide])
+    kept[wide] = LINEAR_TO * gaps[wide] * np.exp(beyond)
+    kept *= 2.0 * np.pi / kept.sum()
+    return np.asarray(theta[0] + step[0] + np.concatenate(([0.0], np.cumsum(kept)[:-1])))

@@ -12,16 +12,16 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array, csr_array, diags_array
-from scipy.sparse.linalg import splu
+from scipy.sparse import csr_array
 
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
 from ..operators.distortion import distortion_of
-from ..operators.mean_value import positive_mean_value_matrix
+from ..operators.mean_value import NeighbourMeans, positive_mean_value_matrix
 from ..operators.moebius import Moebius
 from ..operators.orientation_sign import flipped_faces
 from ..progress import Progress
+from .placement import inside_disk
 
 __all__ = ["Repair", "recentred", "repair_cost", "repaired", "unresolved_faces"]
 
@@ -112,7 +112,7 @@ def repaired(
         else:
             rings *= 2
     if len(folds) and inside.any():
-        moved = _placed(_adjacency(surface), candidates[0][1], inside)
+        moved = NeighbourMeans(_adjacency(surface), np.flatnonzero(inside)).placed(candidates[0][1])
         left = np.setdiff1d(flipped_faces(moved, corners), crowded, assume_unique=True)
         candidates.append((len(left), moved))
     fewest, best = min(candidates, key=lambda candidate: candidate[0])
@@ -127,7 +127,8 @@ def recentred(z: Complex, center: int | None, corners: NDArray[np.int32]) -> Com
         return z
     on_circle = np.abs(z) >= 1.0 - 1e-12
     moved = Moebius.to_zero(complex(z[center]), 1.0)(z)  # 1 is where the boundary vertex is, and stays
-    moved[on_circle] /= np.abs(moved[on_circle])
+    moved[on_circle] *= np.abs(z[on_circle]) / np.abs(moved[on_circle])  # sharpened ears stay so
+    moved = inside_disk(moved)
     moved[z == 1.0], moved[center] = 1.0, 0.0
     return z if len(flipped_faces(moved, corners)) else moved
 
@@ -148,22 +149,7 @@ def _untangled(z: Complex, corners: NDArray[np.int32], patch: NDArray[np.bool_])
     folded = np.zeros(len(z), dtype=bool)
     folded[corners[:, flipped_faces(z, corners)]] = True
     faces = np.flatnonzero(patch[corners].any(axis=0))
-    return _placed(positive_mean_value_matrix(z, corners, faces, folded), z, patch)
-
-
-def _placed(weights: csr_array, z: Complex, patch: NDArray[np.bool_]) -> Complex:
-    """z with each vertex of the patch at the weighted mean of its neighbours."""
-    free = np.flatnonzero(patch)
-    rows = weights[free]
-    rows = diags_array(1.0 / rows.sum(axis=1)) @ rows
-    held = z.copy()
-    held[free] = 0.0
-    system = csc_array(diags_array(np.ones(len(free))) - rows[:, free])
-    solver = splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    right = rows @ held
-    out = z.copy()
-    out[free] = solver.solve(np.ascontiguousarray(right.real)) + 1j * solver.solve(np.ascontiguousarray(right.imag))
-    return out
+    return NeighbourMeans(positive_mean_value_matrix(z, corners, faces, folded), np.flatnonzero(patch)).placed(z)
 
 
 def _adjacency(surface: Surface) -> csr_array:
