@@ -15,6 +15,10 @@ def items(told):
 
 METHODS = items(
     {
+        Method.AUTO: (
+            "Automatic",
+            "Linear or Newton, whichever keeps the angles of an island better",
+        ),
         Method.LINEAR: (
             "Linear",
             "One factorization: the Riemann map read off a Green's function; the fastest",
@@ -63,7 +67,7 @@ FACES = (
 class Options:
     """What the user chose; fields as the operator's properties."""
 
-    method: str = Method.NEWTON.name
+    method: str = Method.AUTO.name
     fill_holes: bool = True
     correct_aspect: bool = True
     use_subsurf_data: bool = False

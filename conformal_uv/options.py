@@ -74,6 +74,7 @@ class Method(Choice):
     LINEAR = "linear"
     NEWTON = "newton"
     AUGMENTED_LAGRANGIAN = "augmented-lagrangian"
+    AUTO = "auto"
 
 
 class Objective(Choice):
@@ -264,7 +265,7 @@ class DiskOptions(Limits):
     Vertices are those of the mesh; `disk.anchors.anchored` checks them against a surface.
     """
 
-    method: Method = Method.NEWTON
+    method: Method = Method.AUTO
     objective: Objective | None = None
     pins: tuple[int, int, int] | None = None
     pin_mode: PinMode | None = None
@@ -276,6 +277,8 @@ class DiskOptions(Limits):
     def __post_init__(self) -> None:
         method = Method.of("method", self.method)
         report = method is Method.AUGMENTED_LAGRANGIAN
+        if method is Method.AUTO and (self.objective == "dirichlet" or self.pin_mode == "constraint"):
+            method = Method.NEWTON  # a problem of optimisation is stated; nothing else solves it
         objective, pin_mode = self.objective, self.pin_mode
         if objective is None:
             objective = Objective.DIRICHLET if report else Objective.CONFORMAL

@@ -34,7 +34,7 @@ EXPECTED = (ConformalUVError, pymeshlab.PyMeshLabException, OSError)
 def disk(
     sources: Annotated[list[Path], typer.Argument(metavar="IN...", help="Meshes in any format pymeshlab reads.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="OBJ, PLY, DAE or OFF file, or a folder.")],
-    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.NEWTON,
+    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.AUTO,
     holes: Annotated[Holes, typer.Option(help="Boundary loops but the longest.")] = Holes.FILL,
     closed: Annotated[Closed, typer.Option(help="Closed pieces and handles.")] = Closed.REFUSE,
     nonmanifold: Annotated[

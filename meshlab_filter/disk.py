@@ -38,7 +38,7 @@ class Mapped:
 def compute_texcoord_parametrization_conformal_disk(
     ms: Any,
     *,
-    method: str = "newton",
+    method: str = "auto",
     objective: str | None = None,
     holes: str = "fill",
     closed: str = "refuse",

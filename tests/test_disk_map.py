@@ -159,7 +159,7 @@ def test_human_face(load_scan) -> None:
     """The bars are those of design.md, set by the prototype on this scan (17,157 vertices)."""
     V, F = load_scan("scans/human_face.obj")
     mapper = cuv.DiskMapper(V, F)
-    linear, newton = mapper.map(method="linear"), mapper.map()
+    linear, newton = mapper.map(method="linear"), mapper.map(method="newton")
     for m in (linear, newton):
         assert_is_a_disk_embedding(m, F)
     assert linear.conformal_energy <= 3.60e-3
@@ -226,7 +226,8 @@ def test_newton_lowers_the_energy_of_linear(name: str) -> None:
     """With no step allowed the linear map stays; the minimum lies below it, at the energy the solver saw last."""
     V, F = GENERATED[name]
     mapper = cuv.DiskMapper(V, F, laplacian="cotan")  # energies are reported of the mesh's own cotangents
-    linear, start, newton = mapper.map(method="linear"), mapper.map(max_iterations=0), mapper.map()
+    linear, newton = mapper.map(method="linear"), mapper.map(method="newton")
+    start = mapper.map(method="newton", max_iterations=0)
     np.testing.assert_allclose(start.uv, linear.uv, rtol=0, atol=1e-14)
     assert newton.conformal_energy < linear.conformal_energy
     assert newton.history[-1].energy == pytest.approx(newton.conformal_energy, abs=1e-12)
@@ -652,8 +653,8 @@ def test_newton_never_raises_the_energy(name: str) -> None:
 @pytest.mark.parametrize("most", [0, 1])
 def test_stopped_newton_says_so(most: int, caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level(logging.WARNING, logger="conformal_uv"):
-        m = cuv.disk_map(*MASK, max_iterations=most)
-    assert not m.converged
+        m = cuv.disk_map(*MASK, method="newton", max_iterations=most)
+    assert not m.converged and m.status == "max-iterations"
     assert len(m.history) == most + 1
     assert m.gradient_norm > 1e-10
     assert "newton stopped before its tolerance" in caplog.text

@@ -18,7 +18,7 @@ def unwrap(
     *,
     seams: ArrayLike | None = None,
     selection: ArrayLike | None = None,
-    method: str = "newton",
+    method: str = "auto",
     objective: str | None = None,
     pins: Vertices = None,
     pin_mode: str | None = None,

@@ -38,7 +38,7 @@ __all__ = ["disk"]
 def disk(
     source: Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL, NPZ, GLB ...; - is stdin.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="Mesh with UVs: OBJ, PLY or NPZ; - is stdout.")],
-    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.NEWTON,
+    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.AUTO,
     objective: Annotated[Objective | None, typer.Option(help="Energy to be minimised.")] = None,
     pins: Annotated[
         str | None,

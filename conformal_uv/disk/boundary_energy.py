@@ -50,6 +50,12 @@ class BoundaryEnergy:
             self.value -= 0.5 * float(self._sine.sum())
             self.gradient -= 0.5 * (np.roll(cosine, 1) - cosine)
 
+    def positions(self) -> NDArray[np.complex128]:
+        """Boundary and extension together, (n,)."""
+        out: NDArray[np.complex128] = np.empty(self.problem.n, dtype=np.complex128)
+        out[self.problem.boundary], out[self.problem.interior] = self.z, self.interior
+        return out
+
     def hessian_product(self, direction: Real) -> Real:
         """Hessian times a direction (nb,), by one harmonic extension."""
         change = 1j * self.z * direction

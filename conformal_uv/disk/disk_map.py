@@ -17,7 +17,7 @@ def disk_map(
     V: ArrayLike,
     F: ArrayLike,
     *,
-    method: str = "newton",
+    method: str = "auto",
     objective: str | None = None,
     pins: Sequence[int] | None = None,
     pin_mode: str | None = None,
@@ -39,9 +39,11 @@ def disk_map(
         Vertex positions, any units.
     F : (m, 3) integers
         Triangles, 0-based, consistently wound: one connected surface with one boundary loop and no handles.
-    method : {"newton", "linear", "augmented-lagrangian"}
+    method : {"auto", "linear", "newton", "augmented-lagrangian"}
         "linear": boundary angles from the harmonic measure, one factorization. "newton": from there, the boundary
-        angles that minimise the energy. "augmented-lagrangian": the algorithm of Choi's report.
+        angles that minimise the energy. "auto": the one of these two with less angle error; large surfaces get the
+        linear map unless the first steps of Newton's method do better. Where pins are constraints, or the objective is
+        "dirichlet", it is "newton". "augmented-lagrangian": the algorithm of Choi's report.
     objective : {"conformal", "dirichlet"}, optional
         What is minimised: the Dirichlet energy less the area of the image, or the Dirichlet energy alone. By
         default "conformal"; "dirichlet", the report's, for the augmented Lagrangian. "linear" minimises neither.
@@ -68,9 +70,10 @@ def disk_map(
         Delaunay triangulation of the same surface, never negative, on mollified lengths where faces have no area.
         "auto" uses the latter when an interior edge has a negative weight or a face no area, except with the
         Dirichlet objective, which is the report's problem on the triangles as they are.
-    repair : {"auto", "never"}
-        Where triangles came out folded, "auto" restores an embedding by positive weights around them; see
-        `DiskMap.repair` for what it cost. "never" leaves them; so does the augmented Lagrangian always.
+    repair : {"auto", "always", "never"}
+        Where triangles came out folded, "auto" restores an embedding if that costs at most half a degree of mean
+        angle error, "always" whatever it costs, as long as doubles hold one; see `DiskMap.repair` for the cost and
+        `DiskMap.flipped` for what is left. "never" leaves them; so does the augmented Lagrangian always.
     backend : {"auto", "cholmod", "superlu", "multigrid"}
         Library of the linear solver. "auto" obeys the environment variable CONFORMAL_UV_BACKEND; without it, it is a
         factorization by CHOLMOD, or by SuperLU where that is not installed, and multigrid (with

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..operators.dirichlet import DirichletProblem
-from ..optimize import NewtonStep, line_search, log_fraction, truncated_cg
+from ..optimize import NewtonStep, Status, line_search, log_fraction, truncated_cg
 from ..progress import Progress
 from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge
@@ -37,6 +37,7 @@ class NewtonResult(NamedTuple):
     energy: BoundaryEnergy
     history: tuple[NewtonStep, ...]
     converged: bool
+    status: Status
 
 
 def minimise_boundary_energy(
@@ -49,6 +50,7 @@ def minimise_boundary_energy(
     max_iterations: int,
     progress: Progress,
     relative_tolerance: float = 0.0,
+    watch: Callable[[BoundaryEnergy], bool] = lambda energy: True,
 ) -> NewtonResult:
     """Minimise the energy over the boundary angles under the gauge.
 
@@ -63,6 +65,8 @@ def minimise_boundary_energy(
     ----------
     theta : (nb,) float64
         Start, strictly increasing within one turn, but for neighbours too close for doubles.
+    watch : callable
+        Given the energy after each step; the iteration ends where it is False.
     """
     history: list[NewtonStep] = []
     energy = BoundaryEnergy(problem, gauge.restore(theta), minus_area=minus_area)
@@ -70,7 +74,7 @@ def minimise_boundary_energy(
     kept = np.full_like(links, links.any())  # on a crowded boundary gaps are mostly rounding, and links stay
     degrees = problem.Lbb.diagonal()
     tolerance = max(tolerance, 64.0 * float(EPS) * float(np.linalg.norm(degrees)))
-    first = None
+    first, status = None, Status.CONVERGED
     for iteration in range(max_iterations + 1):
         tangent = Tangent(gauge, energy.theta, links)
         norm = float(np.linalg.norm(tangent.project(energy.gradient)))
@@ -85,7 +89,10 @@ def minimise_boundary_energy(
             tolerance = max(tolerance, relative_tolerance * first)
         reached = log_fraction(norm, first, tolerance)
         progress("newton", reached)
-        if norm <= tolerance or iteration == max_iterations:
+        if norm <= tolerance:
+            break
+        if iteration == max_iterations:
+            status = Status.MAX_ITERATIONS
             break
         direction, cg_steps = _newton_direction(energy, gauge, tangent, tolerance, partial(progress, "newton", reached))
         closed = ~links & (_gaps(energy.theta) < SMALLEST_GAP) & (np.roll(direction, -1) < direction)
@@ -95,12 +102,16 @@ def minimise_boundary_energy(
         found = _line_search(energy, gauge, tangent, direction)
         if found is None:
             log.debug("no descent left at projected gradient %.3g", norm)
+            status = Status.STALLED
             break
         step_length, better = found
         history.append(NewtonStep(energy.value, norm, cg_steps, step_length))
         energy = better
+        if not watch(energy):
+            status = Status.ANGLES
+            break
     history.append(NewtonStep(energy.value, norm, 0, 0.0))
-    return NewtonResult(energy, tuple(history), bool(norm <= tolerance))
+    return NewtonResult(energy, tuple(history), status is Status.CONVERGED, status)
 
 
 def _newton_direction(

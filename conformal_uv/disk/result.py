@@ -49,7 +49,11 @@ class DiskMap:
     repair : Repair or None
         What restoring folded faces cost; None where nothing was done.
     method, objective : str
-        What was solved.
+        What was solved; of "auto", which of the two it is.
+    status : str
+        Why that stopped: "direct" (nothing to iterate), "converged", "stalled" (no step lowers the energy any more in
+        doubles), "max-iterations"; of "auto" that kept the linear map, "angles" (Newton's method made them worse) or
+        "no-gain" (it promised too little to be begun).
     laplacian : str
         "cotan" or "intrinsic-delaunay".
     center : int or None
@@ -70,6 +74,7 @@ class DiskMap:
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
     repair: Repair | None
     method: str
+    status: str
     objective: str
     laplacian: str
     center: int | None
@@ -129,7 +134,8 @@ def disk_map_result(
         converged=solution.converged,
         history=solution.history,
         repair=repair,
-        method=options.method,
+        method=solution.method,
+        status=solution.status,
         objective=str(options.objective),
         laplacian="cotan" if solution.problem is None else solution.problem.laplacian.kind,
         center=center,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -12,17 +13,18 @@ from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import uniform_edges
 from ..operators.laplacian import cotangent_weights, laplacian_matrix
-from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
-from ..options import DiskOptions
+from ..optimize import AugmentedLagrangianStep, NewtonStep, Status, augmented_lagrangian
+from ..options import DiskOptions, Method
 from ..progress import Progress
 from .augmented_lagrangian import area_hessian, circle_problem
+from .boundary_energy import BoundaryEnergy
 from .centre_cell import release_centre
 from .gauge import CentreGauge, PinGauge
 from .harmonic_measure import CentredMeasure
 from .newton import NewtonResult, minimise_boundary_energy
 from .placement import CUBE_ROOTS, place_pins
 
-__all__ = ["Solution", "solve_augmented_lagrangian", "solve_linear", "solve_newton"]
+__all__ = ["LinearStart", "Solution", "solve_augmented_lagrangian", "solve_linear", "solve_newton"]
 
 Complex = NDArray[np.complex128]
 
@@ -31,7 +33,7 @@ class Solution(NamedTuple):
     """Positions z (n,) in the unit disk, before they are placed.
 
     `center` is the vertex that lies at 0, None where none was put there; `problem` is what was solved, None for the
-    augmented Lagrangian.
+    augmented Lagrangian; `status` says why `method` stopped.
     """
 
     z: Complex
@@ -39,23 +41,39 @@ class Solution(NamedTuple):
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
     converged: bool
     problem: DirichletProblem | None
+    method: Method
+    status: Status
 
 
-def solve_linear(problem: DirichletProblem, measure: CentredMeasure) -> Solution:
+class LinearStart(NamedTuple):
+    """The linear solution and the energy at it."""
+
+    solution: Solution
+    energy: BoundaryEnergy
+
+
+def solve_linear(problem: DirichletProblem, measure: CentredMeasure) -> LinearStart:
     """Angles from the harmonic measure, then the harmonic extension."""
     theta = CentreGauge(measure.vertex_measure, measure.theta).restore(measure.theta)
-    return Solution(problem.extend(np.exp(1j * theta)), measure.centre, (), True, problem)
+    energy = BoundaryEnergy(problem, theta, minus_area=True)
+    solution = Solution(energy.positions(), measure.centre, (), True, problem, Method.LINEAR, Status.DIRECT)
+    return LinearStart(solution, energy)
 
 
 def solve_newton(
-    surface: Surface, problem: DirichletProblem, measure: CentredMeasure, options: DiskOptions, progress: Progress
+    surface: Surface,
+    problem: DirichletProblem,
+    measure: CentredMeasure,
+    options: DiskOptions,
+    progress: Progress,
+    watch: Callable[[BoundaryEnergy], bool] = lambda energy: True,
 ) -> Solution:
-    """From the linear solution, the boundary angles that minimise the energy."""
+    """From the linear solution, the boundary angles that minimise the energy; it ends where `watch` says so."""
     loop = problem.boundary
     gauge: CentreGauge | PinGauge = CentreGauge(measure.vertex_measure, measure.theta)
     theta, pins = measure.theta, options.constrained_pins
     if pins is not None:
-        start = solve_linear(problem, measure).z
+        start = solve_linear(problem, measure).solution.z
         placed, _ = place_pins(problem, surface.corners, start, pins)
         theta = _angles(placed[loop])
         gauge = PinGauge(np.array([np.flatnonzero(loop == pin)[0] for pin in pins]))
@@ -68,16 +86,16 @@ def solve_newton(
         relative_tolerance=options.relative_tolerance,
         max_iterations=options.max_iterations,
         progress=progress,
+        watch=watch,
     )
     released = False
     if pins is None and options.objective == "conformal" and found.converged:
         found, released = release_centre(surface, problem, measure, found, options, progress)
-    z = np.empty(problem.n, dtype=np.complex128)
-    z[loop], z[problem.interior] = found.energy.z, found.energy.interior
+    z = found.energy.positions()
     if pins is not None:
         z[list(pins)] = CUBE_ROOTS
-        return Solution(z, None, found.history, found.converged, problem)
-    return Solution(z, None if released else measure.centre, found.history, found.converged, problem)
+    center = None if released or pins is not None else measure.centre
+    return Solution(z, center, found.history, found.converged, problem, Method.NEWTON, found.status)
 
 
 def solve_augmented_lagrangian(
@@ -108,7 +126,8 @@ def solve_augmented_lagrangian(
     )
     z = x[:n] + 1j * x[n:]
     z[loop] /= np.abs(z[loop])  # the constraints hold to 1e-8, the circle is to be met
-    return Solution(z, None, history, converged, None)
+    status = Status.CONVERGED if converged else Status.MAX_ITERATIONS
+    return Solution(z, None, history, converged, None, Method.AUGMENTED_LAGRANGIAN, status)
 
 
 def _angles(zb: Complex) -> NDArray[np.float64]:

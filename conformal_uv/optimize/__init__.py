@@ -1,7 +1,7 @@
 """Iterations that minimise: what Newton's methods and augmented Lagrangians of all shapes have in common."""
 
 from .augmented_lagrangian import ConstrainedProblem, augmented_lagrangian
-from .history import AugmentedLagrangianStep, NewtonStep, log_fraction
+from .history import AugmentedLagrangianStep, NewtonStep, Status, log_fraction
 from .line_search import SUFFICIENT_DECREASE, line_search
 from .truncated_cg import truncated_cg
 
@@ -10,6 +10,7 @@ __all__ = [
     "AugmentedLagrangianStep",
     "ConstrainedProblem",
     "NewtonStep",
+    "Status",
     "augmented_lagrangian",
     "line_search",
     "log_fraction",

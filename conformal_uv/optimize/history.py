@@ -2,11 +2,39 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
 
-__all__ = ["AugmentedLagrangianStep", "NewtonStep", "log_fraction"]
+__all__ = ["AugmentedLagrangianStep", "NewtonStep", "Status", "log_fraction"]
+
+
+class Status(StrEnum):
+    """Why a method stopped; a member is equal to its name.
+
+    Attributes
+    ----------
+    DIRECT
+        Nothing is iterated.
+    CONVERGED
+        The tolerance was reached.
+    STALLED
+        No step lowers the energy any more, as far as doubles tell.
+    MAX_ITERATIONS
+        `max_iterations` were made.
+    ANGLES
+        Of "auto": Newton's method made the angle error larger, so the linear map was kept.
+    NO_GAIN
+        Of "auto": Newton's method promised too little to be begun, so the linear map was kept.
+    """
+
+    DIRECT = "direct"
+    CONVERGED = "converged"
+    STALLED = "stalled"
+    MAX_ITERATIONS = "max-iterations"
+    ANGLES = "angles"
+    NO_GAIN = "no-gain"
 
 
 class NewtonStep(NamedTuple):

@@ -1,0 +1,85 @@
+"""Whether Newton's method is worth its while after the linear map, decided by the angles themselves.
+
+The energy weighs a face by its area in the image, so that its minimum may have more angle error than the linear map,
+and by far more where faces are crowded. Small meshes are mapped both ways. On large ones the linear map is nearly
+always the better one: Newton's method begins there only if the first step promises something, and goes on only while
+the mean angle error falls.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface
+from ..operators.distortion import distortion_of
+from ..optimize import Status
+from ..options import DiskOptions
+from ..progress import Progress
+from .boundary_energy import BoundaryEnergy
+from .gauge import CentreGauge
+from .harmonic_measure import CentredMeasure
+from .solution import LinearStart, Solution, solve_newton
+from .tangent import Tangent
+
+__all__ = ["solve_auto"]
+
+LARGE = 10_000  # vertices, from where on Newton's method is watched
+FEW = 32  # boundary vertices: a step costs as few solutions, and the preconditioner tells nothing
+PROMISE = 0.003  # degrees of mean angle error that the fall of the energy would give by its square
+WORTH = 3e-4  # part of the energy
+TINY = float(np.finfo(np.float64).tiny)
+
+
+def solve_auto(
+    surface: Surface, start: LinearStart, measure: CentredMeasure, options: DiskOptions, progress: Progress
+) -> list[Solution]:
+    """The linear solution and, where it may be the better one, Newton's; the linear one's status says why it is not.
+
+    Parameters
+    ----------
+    start : LinearStart
+        The linear solution with its energy.
+    """
+    linear, energy = start.solution, start.energy
+    if surface.n < LARGE:
+        newton = solve_newton(surface, energy.problem, measure, options, progress)
+        return [linear._replace(status=Status.ANGLES), newton]
+    if not _promising(surface, energy, measure):
+        return [linear._replace(status=Status.NO_GAIN)]
+    watch = _Watch(surface, energy)
+    newton = solve_newton(surface, energy.problem, measure, options, progress, watch)
+    linear = linear._replace(status=Status.ANGLES)
+    return [linear] if newton.status is Status.ANGLES else [linear, newton]
+
+
+class _Watch:
+    """True while the mean angle error falls."""
+
+    def __init__(self, surface: Surface, energy: BoundaryEnergy) -> None:
+        self._surface = surface
+        self._least = _angle_mean(surface, energy)
+
+    def __call__(self, energy: BoundaryEnergy) -> bool:
+        """Whether the angles at these boundary angles are no worse than before."""
+        mean = _angle_mean(self._surface, energy)
+        if mean > self._least:
+            return False
+        self._least = mean
+        return True
+
+
+def _promising(surface: Surface, energy: BoundaryEnergy, measure: CentredMeasure) -> bool:
+    """Whether the energy would fall by enough, as far as the preconditioner knows the Hessian."""
+    if len(energy.theta) <= FEW:
+        return True
+    gauge = CentreGauge(measure.vertex_measure, energy.theta)
+    tangent = Tangent(gauge, energy.theta, np.zeros(len(energy.theta), dtype=bool))
+    gradient = tangent.project(energy.gradient)
+    part = 0.5 * float(gradient @ tangent.precondition(gradient)) / max(energy.value, TINY)
+    return part > WORTH and part * _angle_mean(surface, energy) > PROMISE
+
+
+def _angle_mean(surface: Surface, energy: BoundaryEnergy) -> float:
+    z: NDArray[np.complex128] = energy.positions()
+    return distortion_of(surface.geometry, surface.corners, z.view(np.float64).reshape(-1, 2)).angle_mean
