@@ -18,10 +18,12 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
     method: bpy.props.EnumProperty(
         name="Method",
         items=(
-            ("NEWTON", "Newton", "The minimiser of the conformal energy"),
-            ("LINEAR", "Linear", "One factorization, slightly less exact"),
+            ("AUTO", "Automatic", "The method that keeps the angles best"),
+            ("LINEAR", "Linear", "One factorization; the fastest"),
+            ("SCHWARZ", "Schwarz", "Two charts in turn; for large scans and long limbs"),
+            ("NEWTON", "Newton", "The least conformal energy; for coarse meshes"),
         ),
-        default="NEWTON",
+        default="AUTO",
     )
     uv: bpy.props.EnumProperty(
         name="UVs",

@@ -36,6 +36,7 @@ __all__ = [
     "Rotation",
     "SphereBoundary",
     "SphereLayout",
+    "SphereMethod",
     "SphereOptions",
     "SplitOptions",
     "real_number",
@@ -72,6 +73,16 @@ class Method(Choice):
     """How a map is found."""
 
     LINEAR = "linear"
+    NEWTON = "newton"
+    AUGMENTED_LAGRANGIAN = "augmented-lagrangian"
+    AUTO = "auto"
+
+
+class SphereMethod(Choice):
+    """How a map to the sphere is found."""
+
+    LINEAR = "linear"
+    SCHWARZ = "schwarz"
     NEWTON = "newton"
     AUGMENTED_LAGRANGIAN = "augmented-lagrangian"
     AUTO = "auto"
@@ -366,7 +377,7 @@ class PlaceOptions:
 class SphereOptions(Limits):
     """What to solve on the sphere and how to place it; see `sphere_map`."""
 
-    method: Method = Method.NEWTON
+    method: SphereMethod = SphereMethod.AUTO
     normalization: Normalization = Normalization.AREA
     rotation: Rotation = Rotation.PRINCIPAL
     landmarks: tuple[int, int, int] | None = None
@@ -378,7 +389,7 @@ class SphereOptions(Limits):
     def __post_init__(self) -> None:
         _set(
             self,
-            method=Method.of("method", self.method),
+            method=SphereMethod.of("method", self.method),
             normalization=Normalization.of("normalization", self.normalization),
             rotation=Rotation.of("rotation", self.rotation),
             boundary=SphereBoundary.of("boundary", self.boundary),

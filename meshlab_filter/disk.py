@@ -70,7 +70,7 @@ def compute_texcoord_parametrization_conformal_disk(
     ----------
     ms : pymeshlab.MeshSet
     method : Enum
-        'newton' (default), 'linear' (one factorization, slightly less exact), 'augmented-lagrangian'.
+        'auto' (default: the better of the next two), 'linear', 'newton', 'augmented-lagrangian'.
     objective : Enum
         'conformal' or 'dirichlet'; the default is the method's own.
     holes : Enum

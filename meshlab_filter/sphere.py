@@ -24,7 +24,7 @@ NAME = "compute_coord_conformal_sphere"
 def compute_coord_conformal_sphere(
     ms: Any,
     *,
-    method: str = "newton",
+    method: str = "auto",
     normalization: str = "area",
     rotation: str = "principal",
     landmarks: Iterable[int] | None = None,
@@ -44,7 +44,7 @@ def compute_coord_conformal_sphere(
     ----------
     ms : pymeshlab.MeshSet
     method : Enum
-        'newton' (default), 'linear' (one factorization, slightly less exact), 'augmented-lagrangian'.
+        'auto' (default: the least angle error), 'linear', 'schwarz', 'newton', 'augmented-lagrangian'.
     normalization : Enum
         What comes to the middle of the ball: the centre of mass of the 'area' (default), of the vertices ('center'),
         or 'none'.

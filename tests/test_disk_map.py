@@ -437,21 +437,21 @@ def test_default_pins_are_a_third_of_the_loop_apart() -> None:
 
 
 ASKED_AGAIN = [
-    {},
-    {"center": CENTER},
-    {"boundary_vertex": meshes.slow_loops(MASK[1])[0][31]},
-    {"pins": meshes.slow_loops(MASK[1])[0][9:100:40]},
+    {"method": "newton"},
+    {"method": "newton", "center": CENTER},
+    {"method": "newton", "boundary_vertex": meshes.slow_loops(MASK[1])[0][31]},
+    {"method": "newton", "pins": meshes.slow_loops(MASK[1])[0][9:100:40]},
     {"method": "linear"},
     {"method": "linear", "center": CENTER},
     {"objective": "dirichlet"},
     {"pin_mode": "constraint", "pins": meshes.slow_loops(MASK[1])[0][9:100:40]},
     {"pin_mode": "constraint", "pins": meshes.slow_loops(MASK[1])[0][5:120:50]},  # neighbours differ in one thing
     {"objective": "dirichlet", "pin_mode": "constraint", "pins": meshes.slow_loops(MASK[1])[0][5:120:50]},
-    {"max_iterations": 1},
-    {"boundary_vertex": meshes.slow_loops(MASK[1])[0][60]},
-    {"boundary_vertex": meshes.slow_loops(MASK[1])[0][60], "tolerance": 1e-3},
+    {"method": "newton", "max_iterations": 1},
+    {"method": "newton", "boundary_vertex": meshes.slow_loops(MASK[1])[0][60]},
+    {"method": "newton", "boundary_vertex": meshes.slow_loops(MASK[1])[0][60], "tolerance": 1e-3},
     {"method": "augmented-lagrangian", "max_iterations": 2},
-    {},
+    {},  # linear or Newton's once more
 ]
 
 

@@ -16,7 +16,7 @@ from ..console.summary import angles_text, distortion_summary, iterations_text, 
 from ..files import MeshFile, read_mesh, write_mesh
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangulate import triangulate
-from ..options import Backend, Laplacian, Method, Normalization, Repair, Rotation, SphereBoundary, SphereLayout
+from ..options import Backend, Laplacian, Normalization, Repair, Rotation, SphereBoundary, SphereLayout, SphereMethod
 from ..report import distortion_numbers
 from ..sphere import SphereMap, sphere_map
 from ..sphere.layout import equirectangular, octahedral
@@ -30,7 +30,7 @@ __all__ = ["sphere"]
 def sphere(
     source: Annotated[Path, typer.Argument(metavar="IN", help="Closed mesh: OBJ, PLY, OFF, STL or NPZ.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="Mesh on the unit sphere: OBJ, PLY or NPZ.")],
-    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.NEWTON,
+    method: Annotated[SphereMethod, typer.Option(help="How the map is found.")] = SphereMethod.AUTO,
     normalization: Annotated[
         Normalization, typer.Option(help="What is brought to the middle of the ball.")
     ] = Normalization.AREA,

@@ -98,7 +98,7 @@ def _ways(surface: Surface, problem: DirichletProblem, z: Complex, fixed: Ints, 
     sharp = _tried(surface, with_sharp_ears(z, corners, loop, flipped_faces(z, corners)))
     yield sharp
     if len(sharp.folds):
-        yield _tried(surface, repaired(surface, sharp.z, sharp.folds, loop, progress))
+        yield _tried(surface, _mended(surface, loop, sharp.z, progress))
     means: list[NeighbourMeans] = []
 
     def by_mean_values(zb: Complex) -> Complex:
@@ -239,8 +239,15 @@ def _respaced(
         arcs = arcs.copy()
         arcs[narrow] = EAR_ARC
     if 0 < len(folds) <= max(100, MOST_MENDED * surface.m):
-        z = repaired(surface, z, folds, loop, progress)
+        z = _mended(surface, loop, z, progress)
     return _tried(surface, z)
+
+
+def _mended(surface: Surface, loop: Ints, z: Complex, progress: Progress) -> Complex:
+    """Local repair of the interior."""
+    inside = np.ones(surface.n, dtype=bool)
+    inside[loop] = False
+    return repaired(surface.corners, z, inside, lambda z: flipped_faces(z, surface.corners), progress)
 
 
 def _arcs_of(places: Ints, count: int) -> Ints:

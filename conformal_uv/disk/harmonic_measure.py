@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.geometry import triangle_geometry
+from ..mesh.distinguished import distinguished
+from ..mesh.geometry import TriangleGeometry, triangle_geometry
 from ..mesh.halfedges import half_edges
 from ..mesh.subdivide import split_edges
 from ..mesh.surface import Surface
@@ -22,6 +23,7 @@ from ..operators.edge_laplacian import edge_laplacian
 __all__ = ["CentredMeasure", "angles_of_measure", "centred_measure"]
 
 MOST_OF_ONE = 0.49  # of the harmonic measure
+ALIKE = 1e-9  # part of the torsion function's peak
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +56,7 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
     lengths = np.linalg.norm(surface.V[np.roll(loop, -1)] - surface.V[loop], axis=1)
     centre, measure = None, None
     if len(problem.interior):
-        centre = torsion_centre(lumped_areas(surface.geometry, surface.corners, surface.n), problem)
+        centre = torsion_centre(surface.V, surface.corners, surface.geometry, problem)
         measure = problem.harmonic_measure(centre)
         theta = angles_of_measure(measure, lengths)
         if (np.diff(theta, append=2.0 * np.pi) > 0.0).all():
@@ -65,7 +67,7 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
     edges, geometry = half_edges(corners, len(V)), triangle_geometry(V, corners)
     laplacian = edge_laplacian(corners, edges, geometry, len(V))
     refined = DirichletProblem(laplacian, loop, len(V), points=V, backend=problem.backend)
-    pole = centre if centre is not None else torsion_centre(lumped_areas(geometry, corners, len(V)), refined)
+    pole = centre if centre is not None else torsion_centre(V, corners, geometry, refined)
     fine = refined.harmonic_measure(pole)
     if measure is None or (measure < 0.0).any():
         measure = fine
@@ -83,9 +85,15 @@ def _balanced(found: CentredMeasure) -> CentredMeasure:
     return CentredMeasure(None, arcs + np.roll(arcs, 1), found.theta)
 
 
-def torsion_centre(areas: NDArray[np.float64], problem: DirichletProblem) -> int:
-    """The interior vertex where the torsion function (-laplacian t = 1, t = 0 on the boundary) is largest."""
-    return int(problem.interior[np.argmax(problem.solve(areas[problem.interior]))])
+def torsion_centre(
+    V: NDArray[np.float64], corners: NDArray[np.int32], geometry: TriangleGeometry, problem: DirichletProblem
+) -> int:
+    """The interior vertex where the torsion function (-laplacian t = 1, t = 0 on the boundary) is largest.
+
+    Among vertices where it is so but for rounding, the one that `distinguished` tells.
+    """
+    torsion = problem.solve(lumped_areas(geometry, corners, len(V))[problem.interior])
+    return distinguished(V, corners, problem.interior[torsion >= torsion.max() - ALIKE * np.abs(torsion).max()])
 
 
 def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:

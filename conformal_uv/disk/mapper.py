@@ -144,8 +144,10 @@ class DiskMapper:
             distortion_of(surface.geometry, surface.corners, one.z.view(np.float64).reshape(-1, 2)).angle_mean
             for one in candidates
         ]
-        near = [(len(one.flipped), mean, k) for k, (one, mean) in enumerate(zip(candidates, means, strict=True))]
-        return candidates[min(rank for rank in near if rank[1] <= min(means) + UNSEEN)[2]]
+        near = [k for k in range(len(means)) if means[k] <= min(means) + UNSEEN]
+        return candidates[
+            min(near, key=lambda k: (len(candidates[k].flipped), not candidates[k].solution.converged, means[k]))
+        ]
 
     def _problem(self, options: DiskOptions, progress: Progress) -> tuple[DirichletProblem, CentredMeasure]:
         """The factorization and the harmonic measure that the options need, made at the first call.

@@ -1,18 +1,19 @@
-"""Restoring an embedding where original triangles came out folded.
+"""Folds mended where they are: patches of vertices placed at means of their neighbours by positive weights.
 
-Around the folds vertices are placed at means of their neighbours by positive weights: the map's own mean value weights,
-which hold unfolded parts where they are. Where folds remain the patch grows; when it takes in the whole interior,
-Tutte's theorem leaves no fold but those that doubles can not resolve. Uniform weights, which crowd the least, have
-the last try.
+The weights are the map's own mean value weights, which hold unfolded parts where they are. Folds near one another
+share a patch; each patch grows by itself while it does not help, and is put back where it never does. No fold is
+mended at the price of the whole map.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
@@ -28,8 +29,7 @@ __all__ = ["Repair", "recentred", "repair_cost", "repaired", "unresolved_faces"]
 Complex = NDArray[np.complex128]
 Faces = NDArray[np.int64]
 
-MOST_TRIED = 100  # collapsed faces
-FIRST_RINGS = 1  # of the patch around a fold
+RINGS = (1, 2, 4, 8, 16)  # of the patch around a fold
 RESOLUTION = 16.0 * np.finfo(np.float64).eps  # of a position in the disk, with a few operations behind it
 
 
@@ -73,52 +73,57 @@ def unresolved_faces(z: Complex, corners: NDArray[np.int32], faces: NDArray[np.i
 
 
 def repaired(
-    surface: Surface, z: Complex, flipped: NDArray[np.int64], boundary: NDArray[np.int64], progress: Progress
+    corners: NDArray[np.int32],
+    z: Complex,
+    movable: NDArray[np.bool_],
+    folds_of: Callable[[Complex], Faces],
+    progress: Progress,
 ) -> Complex:
-    """Positions without folds, as far as doubles hold them; z itself where it has none.
+    """Positions with fewer folds; z itself where it has none, or none that a patch around it mends.
 
     Parameters
     ----------
+    corners : (3, m) int32
     z : (n,) complex128
-        Positions in the unit disk, the boundary on the circle in order.
-    flipped : (k,) int64
-        The faces folded there.
-
-    Returns
-    -------
-    (n,) complex128
+        Positions in the plane.
+    movable : (n,) bool
+        Vertices that patches may take in; boundary vertices are none.
+    folds_of : callable
+        The faces folded at positions.
     """
-    corners, n = surface.corners, surface.n
-    crowded = unresolved_faces(z, corners, flipped)
-    if len(crowded) < MOST_TRIED:
-        crowded = crowded[:0]  # few enough to try them too; crowding proper comes in great numbers
-    folds = np.setdiff1d(flipped, crowded, assume_unique=True)
-    if not len(folds):
-        return z
-    inside = np.ones(n, dtype=bool)
-    inside[boundary] = False
-    candidates = [(len(folds), z)]
-    most = len(folds)
-    rings, whole = FIRST_RINGS, False
-    while len(folds) and not whole:
-        progress("repair", min(0.99, 1.0 - len(folds) / (most + 1)))
-        patch = _ball(corners, folds, rings, n) & inside
-        whole = bool(patch[inside].all())
-        moved = _untangled(z, corners, patch)
-        left = np.setdiff1d(flipped_faces(moved, corners), crowded, assume_unique=True)
-        if len(left) < len(folds):
-            z, folds = moved, left
-            candidates.append((len(folds), z))
-        else:
-            rings *= 2
-    if len(folds) and inside.any():
-        moved = NeighbourMeans(_adjacency(surface), np.flatnonzero(inside)).placed(candidates[0][1])
-        left = np.setdiff1d(flipped_faces(moved, corners), crowded, assume_unique=True)
-        candidates.append((len(left), moved))
-    fewest, best = min(candidates, key=lambda candidate: candidate[0])
-    if 2 * fewest > candidates[0][0]:  # little to be had for all the angles that it would cost
-        best = candidates[0][1]
-    return best
+    folds = folds_of(z)
+    for number, rings in enumerate(RINGS):
+        if not len(folds):
+            break
+        progress("repair", number / len(RINGS))
+        patch = _ball(corners, folds, rings, len(z)) & movable
+        if not patch.any():
+            continue
+        moved = _untangled(z, corners, patch, folds)
+        z = _where_better(corners, patch, z, folds, moved, folds_of(moved))
+        folds = folds_of(z)
+    return z
+
+
+def _where_better(
+    corners: NDArray[np.int32], patch: NDArray[np.bool_], z: Complex, folds: Faces, moved: Complex, left: Faces
+) -> Complex:
+    """z, in each connected part of the patch that has fewer folds after it was moved as it is then."""
+    at = np.flatnonzero(patch)
+    number = np.full(len(z), -1, dtype=np.int64)
+    number[at] = np.arange(len(at))
+    place = number[corners]
+    sides = [(place[k], place[k - 1]) for k in range(3)]
+    first, second = (np.concatenate(ends) for ends in zip(*sides, strict=True))
+    both = (first >= 0) & (second >= 0)
+    graph = coo_array((np.ones(both.sum(), dtype=np.int8), (first[both], second[both])), shape=(len(at), len(at)))
+    parts, part = connected_components(graph, directed=False)
+    of_face = np.where(place.max(axis=0) >= 0, part[place.max(axis=0)], -1)
+    before, after = (np.bincount(of_face[f][of_face[f] >= 0], minlength=parts) for f in (folds, left))
+    out = z.copy()
+    taken = at[(after < before)[part]]
+    out[taken] = moved[taken]
+    return out
 
 
 def recentred(z: Complex, center: int | None, corners: NDArray[np.int32]) -> Complex:
@@ -144,19 +149,12 @@ def _ball(corners: NDArray[np.int32], faces: NDArray[np.int64], rings: int, n: i
     return near
 
 
-def _untangled(z: Complex, corners: NDArray[np.int32], patch: NDArray[np.bool_]) -> Complex:
+def _untangled(z: Complex, corners: NDArray[np.int32], patch: NDArray[np.bool_], folds: Faces) -> Complex:
     """z with the patch placed by its positive mean value weights."""
     folded = np.zeros(len(z), dtype=bool)
-    folded[corners[:, flipped_faces(z, corners)]] = True
+    folded[corners[:, folds]] = True
     faces = np.flatnonzero(patch[corners].any(axis=0))
     return NeighbourMeans(positive_mean_value_matrix(z, corners, faces, folded), np.flatnonzero(patch)).placed(z)
-
-
-def _adjacency(surface: Surface) -> csr_array:
-    """Weight 1 between the two vertices of each edge."""
-    lo, hi = surface.edges.lo, surface.edges.hi
-    ends = np.concatenate((lo, hi)), np.concatenate((hi, lo))
-    return csr_array((np.ones(2 * len(lo)), ends), shape=(surface.n, surface.n))
 
 
 def _points(z: Complex) -> NDArray[np.float64]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..operators.edge_laplacian import EdgeLaplacian
+from ..operators.orientation_sign import outward_signs
 from .centring import unit
 
 __all__ = ["SphereEnergy", "area_gradient", "area_hessian_product", "laplace", "triangle_normals"]
@@ -70,6 +71,8 @@ class SphereEnergy:
     ----------
     x : (n, 3) float64
     value : float
+    signs : (m,) int8
+        1 for faces that are anticlockwise seen from outside, -1 for clockwise, exactly.
     gradient : (n, 3) float64
         Tangent to the sphere at every vertex.
     """
@@ -77,7 +80,8 @@ class SphereEnergy:
     def __init__(self, laplacian: EdgeLaplacian, corners: NDArray[np.int32], x: Real) -> None:
         self.laplacian, self.corners, self.x = laplacian, corners, unit(x)
         self._double_area, normal, self._ab, self._ac = triangle_normals(self.x, corners)
-        self._sign = np.where(np.einsum("ij,ij->i", self.x[corners[0]], normal) < 0.0, -1.0, 1.0)
+        self.signs = outward_signs(self.x, corners)
+        self._sign = np.where(self.signs < 0, -1.0, 1.0)
         self._normal = normal * self._sign[:, None]
         step = self.x[laplacian.lo] - self.x[laplacian.hi]
         dirichlet = 0.5 * float(laplacian.weights @ np.einsum("ij,ij->i", step, step))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..operators.dirichlet import DirichletProblem
-from ..optimize import NewtonStep, line_search, log_fraction, truncated_cg
+from ..optimize import NewtonStep, Status, line_search, log_fraction, truncated_cg
 from ..progress import Progress
 from .centring import centred, unit
 from .energy import SphereEnergy
@@ -24,11 +24,11 @@ EPS = np.finfo(np.float64).eps
 
 
 class SphereNewton(NamedTuple):
-    """Positions (n, 3), the steps, and whether the tolerance was reached."""
+    """Positions (n, 3), the steps, and why they ended."""
 
     x: Real
     history: tuple[NewtonStep, ...]
-    converged: bool
+    status: Status
 
 
 class _Held:
@@ -80,7 +80,8 @@ def minimise_sphere_energy(
     """Minimise the energy among maps whose centre of mass is 0.
 
     Truncated conjugate gradients inside (Steihaug 1983), a line search outside; after every step a Moebius map brings
-    the centre of mass back. A step that would uncover part of the sphere, by the signed volume, is not taken.
+    the centre of mass back. A step that inverts a face, or would uncover part of the sphere by the signed volume, is
+    not taken.
 
     Parameters
     ----------
@@ -92,7 +93,7 @@ def minimise_sphere_energy(
         Sum 1.
     """
     history: list[NewtonStep] = []
-    energy, first = start, None
+    energy, first, status = start, None, Status.CONVERGED
     for iteration in range(max_iterations + 1):
         held = _Held(energy, mass, problem)
         gradient = held.project(energy.gradient)
@@ -100,17 +101,21 @@ def minimise_sphere_energy(
         first = first or norm
         reached = log_fraction(norm, first, tolerance)
         progress("newton", reached)
-        if norm <= tolerance or iteration == max_iterations:
+        if norm <= tolerance:
+            break
+        if iteration == max_iterations:
+            status = Status.MAX_ITERATIONS
             break
         direction, steps = _direction(energy, held, gradient, tolerance, partial(progress, "newton", reached))
         found = _line_search(energy, held, mass, direction, gradient)
         if found is None:
+            status = Status.STALLED
             break
         length, better = found
         history.append(NewtonStep(energy.value, norm, steps, length))
         energy = better
     history.append(NewtonStep(energy.value, norm, 0, 0.0))
-    return SphereNewton(energy.x, tuple(history), bool(norm <= tolerance))
+    return SphereNewton(energy.x, tuple(history), status)
 
 
 def _direction(
@@ -127,11 +132,12 @@ def _line_search(
     slope, norm = float(np.vdot(gradient, direction)), float(np.linalg.norm(gradient))
     noise = 64.0 * float(EPS) * (abs(energy.value) + 4.0 * np.pi)
     least = VOLUME_KEPT * _volume(energy)
+    sound = energy.signs > 0
 
     def move(length: float) -> SphereEnergy | None:
         moved = centred(unit(energy.x + length * direction), mass)
         trial = SphereEnergy(energy.laplacian, energy.corners, moved)
-        return trial if _volume(trial) >= least else None
+        return trial if (trial.signs > 0)[sound].all() and _volume(trial) >= least else None
 
     def gradient_falls(there: SphereEnergy) -> bool:
         return bool(np.linalg.norm(held.project(there.tangent(there.gradient))) < norm)

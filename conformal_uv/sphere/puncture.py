@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ..disk.gauge import CentreGauge
 from ..disk.harmonic_measure import centred_measure
+from ..mesh.distinguished import distinguished
 from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
 from ..operators.dirichlet import DirichletProblem
@@ -14,17 +15,20 @@ from ..operators.edge_laplacian import edge_laplacian
 from ..progress import Progress
 from .stereographic import from_plane
 
-__all__ = ["linear_sphere", "most_regular_vertex"]
+__all__ = ["linear_sphere", "most_regular_vertex", "punctures"]
 
 Real = NDArray[np.float64]
 
 DEGREE_PENALTY = np.radians(20.0)  # for each edge more or less than six
+NEARLY = np.radians(20.0)  # of regularity, that a vertex far from the most regular one may lack
+DECIMALS = 6  # of radians; what differs by less is equal but for rounding
 
 
-def most_regular_vertex(surface: Surface) -> int:
-    """The vertex whose star is nearest to six equilateral triangles; among equals the flattest.
+def punctures(surface: Surface, most: int) -> list[int]:
+    """Vertices whose stars are like six equilateral triangles, the first the most regular, the others far from it.
 
-    Its star is what the linear map can not see; a sliver's corner there would spoil the whole map.
+    A star is what the linear map can not see; a sliver's corner there would spoil the whole map. Among vertices equal
+    but for rounding it is the flattest, and among those the one that `distinguished` tells.
     """
     angle = np.arctan2(surface.geometry.double_area, surface.geometry.dot)
     deviation = np.abs(angle - np.pi / 3.0).max(axis=0)
@@ -34,18 +38,34 @@ def most_regular_vertex(surface: Surface) -> int:
     place = surface.corners.reshape(-1)
     degree = np.bincount(place, minlength=surface.n)
     defect = 2.0 * np.pi - np.bincount(place, weights=angle.reshape(-1), minlength=surface.n)
-    irregular = np.round(worst + DEGREE_PENALTY * np.abs(degree - 6), 6)  # equal but for rounding: the flattest
-    return int(np.lexsort((np.abs(defect), irregular))[0])
+    irregular = np.round(worst + DEGREE_PENALTY * np.abs(degree - 6), DECIMALS)
+    flatness = np.round(np.abs(defect), DECIMALS)
+    best = np.flatnonzero(irregular == irregular.min())
+    best = best[flatness[best] == flatness[best].min()]
+    found = [distinguished(surface.V, surface.corners, best)]
+    regular = np.flatnonzero(irregular <= irregular.min() + NEARLY)
+    near = np.full(len(regular), np.inf)
+    while len(found) < most:
+        near = np.minimum(near, np.linalg.norm(surface.V[regular] - surface.V[found[-1]], axis=1))
+        farthest = near.max()
+        if not farthest > 0.0:
+            break
+        found.append(distinguished(surface.V, surface.corners, regular[near >= (1.0 - 1e-9) * farthest]))
+    return found
 
 
-def linear_sphere(surface: Surface, laplacian: str, backend: str, progress: Progress) -> Real:
+def most_regular_vertex(surface: Surface) -> int:
+    """The first of `punctures`."""
+    return punctures(surface, 1)[0]
+
+
+def linear_sphere(surface: Surface, vertex: int, laplacian: str, backend: str, progress: Progress) -> Real:
     """Positions (n, 3) on the unit sphere from one factorization.
 
-    The surface without the star of its most regular vertex goes to the disk by harmonic measure, is scaled so that
+    The surface without the star of the vertex goes to the disk by harmonic measure, is scaled so that
     half of its area lies within the unit circle, and goes to the sphere by stereographic projection; the vertex
     itself to the pole.
     """
-    vertex = most_regular_vertex(surface)
     disk, rest = surface.without_vertex(vertex)
     progress("assembly", 0.0)
     edges = edge_laplacian(disk.corners, disk.edges, disk.geometry, disk.n, laplacian)

@@ -39,7 +39,12 @@ class SphereMap:
     repaired : int
         Number of inverted faces that were unfolded.
     method, normalization, laplacian : str
-        What was solved, how the Moebius freedom was fixed, and which weights were used.
+        What was solved (of "auto", which of its methods it is), how the Moebius freedom was fixed, and which weights
+        were used.
+    status : str
+        Why that stopped: "direct" (nothing to iterate to a tolerance), "converged", "stalled" (no step lowers the
+        energy any more without folding a face), "max-iterations"; of "auto" that did without Newton's method,
+        "angles" (it made them worse) or "no-gain" (a surface so fine that it was not begun).
     """
 
     xyz: NDArray[np.float64]
@@ -51,6 +56,7 @@ class SphereMap:
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
     repaired: int
     method: str
+    status: str
     normalization: str
     laplacian: str
     surface: Surface = field(repr=False)

@@ -12,20 +12,13 @@ from ..errors import DisconnectedError, OptionError, TopologyError
 from ..linear.backends import choose_backend
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
-from ..operators.areas import lumped_areas
-from ..operators.dirichlet import DirichletProblem
-from ..operators.edge_laplacian import EdgeLaplacian, edge_laplacian
-from ..operators.orientation_sign import inverted_faces, outward_signs
-from ..optimize import AugmentedLagrangianStep, NewtonStep, augmented_lagrangian
-from ..options import Laplacian, Method, Normalization, Repair, Rotation, SphereBoundary, SphereOptions
+from ..operators.orientation_sign import outward_signs
+from ..optimize import Status
+from ..options import Laplacian, Normalization, Repair, Rotation, SphereBoundary, SphereMethod, SphereOptions
 from ..progress import Callback, Progress
-from .augmented_lagrangian import SphereProblem
 from .centring import centred, landmark_aligned, principal_rotation, surface_rotation, unit
-from .energy import SphereEnergy
-from .newton import SphereNewton, minimise_sphere_energy
-from .puncture import linear_sphere, most_regular_vertex
-from .repair import unfolded
 from .result import SphereMap
+from .solution import ClosedSurface, SphereSolution
 
 __all__ = ["sphere_map"]
 
@@ -37,7 +30,7 @@ def sphere_map(
     V: ArrayLike,
     F: ArrayLike,
     *,
-    method: str = "newton",
+    method: str = "auto",
     normalization: str = "area",
     rotation: str = "principal",
     landmarks: Sequence[int] | None = None,
@@ -56,10 +49,13 @@ def sphere_map(
     V : (n, 3) floats
     F : (m, 3) integers
         Triangles of one closed surface of genus 0, wound anticlockwise seen from outside.
-    method : {"newton", "linear", "augmented-lagrangian"}
-        "linear": the disk's map of the surface without its most regular vertex, projected stereographically.
-        "newton": from there to a minimiser of the conformal energy among the maps that are centred by area.
-        "augmented-lagrangian": the same minimiser in the way of Choi's report, for small meshes.
+    method : {"auto", "linear", "schwarz", "newton", "augmented-lagrangian"}
+        "linear": the disk's map of the surface without one regular vertex, projected stereographically; on small
+        surfaces the best of some vertices. "schwarz": from there harmonic in two charts in turn, which mends the
+        neighbourhood of that vertex and crowded limbs. "newton": from the better of these to a minimiser of the
+        conformal energy among the maps that are centred by area. "auto": the one of the three with the least angle
+        error; on surfaces of 10,000 vertices and more of the first two. "augmented-lagrangian": Newton's minimiser in
+        the way of Choi's report, for small meshes.
     normalization : {"area", "center", "none"}
         The Moebius map at the end: the centre of mass of the surface's area (each vertex's third of its faces), or
         of the vertices, comes to the middle of the ball; "none" leaves what the method ends with.
@@ -99,7 +95,7 @@ def sphere_map(
     ((6, 3), 0)
     """
     options = SphereOptions(
-        method=Method.of("method", method),
+        method=SphereMethod.of("method", method),
         normalization=Normalization.of("normalization", normalization),
         rotation=Rotation.of("rotation", rotation),
         landmarks=landmarks,  # type: ignore[arg-type]
@@ -119,31 +115,14 @@ def sphere_map(
     _require_sphere(surface)
     surface.require_extent()
     _check_landmarks(options.landmarks, n)
-    mass = lumped_areas(surface.geometry, surface.corners, surface.n)
-    mass = mass / mass.sum() if mass.sum() > 0.0 else np.full(surface.n, 1.0 / surface.n)
-    edges = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, options.laplacian)
-    x = centred(linear_sphere(surface, options.laplacian, backend, progress), mass)
-    x, folded = _unfolded(surface, x, mass, options, progress)
-    history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...] = ()
-    converged = True
-    if options.method is not Method.LINEAR:
-        if options.method is Method.NEWTON:
-            x, history, converged = _newton(surface, edges, x, mass, options, backend, progress)
-        else:
-            flat, history, converged = augmented_lagrangian(
-                SphereProblem(edges, surface.corners, mass),
-                x.reshape(-1),
-                max_iterations=options.max_iterations,
-                progress=progress,
-            )
-            x = unit(flat.reshape(-1, 3))
-        x, after = _unfolded(surface, x, mass, options, progress)
-        folded += after
-        if not converged:
-            log.warning("%s stopped before its tolerance, after %d rows", options.method, len(history))
+    closed = ClosedSurface(surface, options, backend, progress)
+    solution = closed.solved()
+    converged = solution.status not in (Status.STALLED, Status.MAX_ITERATIONS)
+    if not converged:
+        log.warning("%s stopped before its tolerance, after %d rows", solution.method, len(solution.history))
     progress("placement", 0.0)
-    x = _placed(surface, x, mass, options)
-    result = _result(surface, edges, x, (n, m), history, converged, folded, options)
+    x = _placed(surface, solution.x, closed.mass, options)
+    result = _result(closed, x, (n, m), solution, converged, options)
     progress("placement", 1.0)
     return result
 
@@ -170,39 +149,6 @@ def _check_landmarks(landmarks: tuple[int, int, int] | None, n: int) -> None:
         raise OptionError(f"landmarks are {told}; pass three different vertices of 0 .. {n - 1}.")
 
 
-def _unfolded(surface: Surface, x: Real, mass: Real, options: SphereOptions, progress: Progress) -> tuple[Real, int]:
-    """Positions after the repair, centred again, and the number of faces unfolded."""
-    before = len(inverted_faces(x, surface.corners))
-    if options.repair is Repair.NEVER or not before:
-        return x, 0
-    moved = unfolded(surface, x, progress)
-    if moved is x:
-        return x, 0
-    return centred(moved, mass), before - len(inverted_faces(moved, surface.corners))
-
-
-def _newton(
-    surface: Surface,
-    edges: EdgeLaplacian,
-    x: Real,
-    mass: Real,
-    options: SphereOptions,
-    backend: str,
-    progress: Progress,
-) -> SphereNewton:
-    grounded = np.array([most_regular_vertex(surface)])
-    problem = DirichletProblem(edges, grounded, surface.n, points=surface.V, backend=backend, progress=progress)
-    start = SphereEnergy(edges, surface.corners, x)
-    return minimise_sphere_energy(
-        start,
-        problem,
-        mass,
-        tolerance=options.tolerance,
-        max_iterations=options.max_iterations,
-        progress=progress,
-    )
-
-
 def _placed(surface: Surface, x: Real, mass: Real, options: SphereOptions) -> Real:
     if options.landmarks is not None:
         return unit(landmark_aligned(x, options.landmarks))
@@ -217,17 +163,16 @@ def _placed(surface: Surface, x: Real, mass: Real, options: SphereOptions) -> Re
 
 
 def _result(
-    surface: Surface,
-    edges: EdgeLaplacian,
+    closed: ClosedSurface,
     x: Real,
     own: tuple[int, int],
-    history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...],
+    solution: SphereSolution,
     converged: bool,
-    folded: int,
     options: SphereOptions,
 ) -> SphereMap:
+    surface, laplacian = closed.surface, closed.laplacian
     a, b, c = (x[corner] for corner in surface.corners)
-    dirichlet = sum(edges.energy(column.astype(np.complex128)) for column in x.T)
+    dirichlet = sum(laplacian.energy(column.astype(np.complex128)) for column in x.T)
     signs = outward_signs(x, surface.corners)
     area = 0.5 * float(triangle_geometry(x, surface.corners).double_area @ np.where(signs < 0, -1.0, 1.0))
     vertices, faces = own
@@ -240,10 +185,11 @@ def _result(
         signed_volume=float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0,
         flipped=inverted[inverted < faces],
         converged=converged,
-        history=history,
-        repaired=folded,
-        method=options.method,
+        history=solution.history,
+        repaired=solution.unfolded,
+        method=solution.method,
+        status=solution.status,
         normalization=options.normalization,
-        laplacian=edges.kind,
+        laplacian=laplacian.kind,
         surface=surface,
     )

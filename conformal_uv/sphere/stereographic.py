@@ -25,5 +25,5 @@ def to_plane(xyz: Real) -> Complex:
     x, y, z = xyz.T
     above = 1.0 - z
     small = above < 0.5  # near the pole 1 - z is better had from x^2 + y^2
-    above = np.where(small, (x * x + y * y) / (1.0 + z), above)
+    above[small] = (x[small] ** 2 + y[small] ** 2) / (1.0 + z[small])
     return (x - 1j * y) / above

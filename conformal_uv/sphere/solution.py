@@ -1,0 +1,175 @@
+"""The methods of the sphere, each from a closed surface to positions whose centre of mass is in the middle."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface
+from ..operators.areas import lumped_areas
+from ..operators.dirichlet import DirichletProblem
+from ..operators.distortion import distortion_of
+from ..operators.edge_laplacian import EdgeLaplacian, edge_laplacian
+from ..operators.orientation_sign import inverted_faces
+from ..optimize import AugmentedLagrangianStep, NewtonStep, Status, augmented_lagrangian
+from ..options import Repair, SphereMethod, SphereOptions
+from ..progress import Progress
+from .augmented_lagrangian import SphereProblem
+from .centring import centred, unit
+from .energy import SphereEnergy
+from .newton import minimise_sphere_energy
+from .puncture import linear_sphere, most_regular_vertex, punctures
+from .repair import unfolded
+from .schwarz import TwoCharts
+
+__all__ = ["ClosedSurface", "SphereSolution"]
+
+Real = NDArray[np.float64]
+
+LARGE = 10_000  # vertices, from where on one puncture must do and "auto" does without Newton's method
+PUNCTURES = 4  # that are tried on smaller surfaces
+UNSEEN = 0.01  # degrees of mean angle error
+DEAR = 0.5  # degrees that `repair="auto"` does not pay
+
+
+class SphereSolution(NamedTuple):
+    """Positions x (n, 3) on the unit sphere, the centre of mass in the middle, and how they were come by.
+
+    `unfolded` counts the inverted faces that were mended, `folds` are those that are left, `angle_mean` is in degrees.
+    """
+
+    x: Real
+    method: SphereMethod
+    status: Status
+    history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
+    unfolded: int
+    folds: NDArray[np.int64]
+    angle_mean: float
+
+
+class ClosedSurface:
+    """A closed surface with what all methods need of it.
+
+    Parameters
+    ----------
+    surface : Surface
+        Closed, of genus 0.
+    options : SphereOptions
+    backend : str
+    progress : Progress
+    """
+
+    def __init__(self, surface: Surface, options: SphereOptions, backend: str, progress: Progress) -> None:
+        self.surface, self._options, self._backend, self._progress = surface, options, backend, progress
+        mass = lumped_areas(surface.geometry, surface.corners, surface.n)
+        self.mass = mass / mass.sum() if mass.sum() > 0.0 else np.full(surface.n, 1.0 / surface.n)
+        self.laplacian: EdgeLaplacian = edge_laplacian(
+            surface.corners, surface.edges, surface.geometry, surface.n, options.laplacian
+        )
+
+    def solved(self) -> SphereSolution:
+        """By the method of the options."""
+        method = self._options.method
+        linear, raw = self._linear()
+        if method is SphereMethod.LINEAR:
+            return linear
+        if method is SphereMethod.AUGMENTED_LAGRANGIAN:
+            return self._augmented_lagrangian(linear)
+        candidates = [linear]
+        schwarz = self._schwarz(raw)
+        if schwarz is not None:
+            candidates.append(schwarz)
+        best = _better(candidates)
+        if method is SphereMethod.SCHWARZ:
+            return schwarz if schwarz is not None else linear
+        if method is SphereMethod.NEWTON:
+            return self._newton(best)
+        if self.surface.n >= LARGE:
+            return best._replace(status=Status.NO_GAIN)
+        chosen = _better([*candidates, self._newton(best)])
+        return chosen if chosen.method is SphereMethod.NEWTON else chosen._replace(status=Status.ANGLES)
+
+    def _linear(self) -> tuple[SphereSolution, Real]:
+        """The best of the linear maps from some punctures, and its positions before any repair."""
+        surface = self.surface
+        count = PUNCTURES if surface.n < LARGE else 1
+        maps = [
+            centred(linear_sphere(surface, vertex, self._options.laplacian, self._backend, self._progress), self.mass)
+            for vertex in punctures(surface, count)
+        ]
+        x = maps[0] if len(maps) == 1 else min(maps, key=self._angle_mean)
+        return self._finished(x, SphereMethod.LINEAR, Status.DIRECT), x
+
+    def _schwarz(self, x: Real) -> SphereSolution | None:
+        """From the positions of a linear map; None where that has no two charts."""
+        charts = TwoCharts(self.laplacian, x, self.surface.V, self._backend, self._progress)
+        if not charts.usable:
+            return None
+        corners = self.surface.corners
+        found = centred(charts.alternated(x), self.mass)
+        relaxed = centred(charts.relaxed(found, corners), self.mass)
+        sound = set(inverted_faces(relaxed, corners)) <= set(inverted_faces(found, corners))
+        if sound and self._angle_mean(relaxed) < self._angle_mean(found):
+            found = relaxed
+        return self._finished(found, SphereMethod.SCHWARZ, Status.DIRECT)
+
+    def _newton(self, start: SphereSolution) -> SphereSolution:
+        """The minimiser of the conformal energy near a solution."""
+        surface, options = self.surface, self._options
+        grounded = np.array([most_regular_vertex(surface)])
+        problem = DirichletProblem(
+            self.laplacian, grounded, surface.n, points=surface.V, backend=self._backend, progress=self._progress
+        )
+        found = minimise_sphere_energy(
+            SphereEnergy(self.laplacian, surface.corners, start.x),
+            problem,
+            self.mass,
+            tolerance=options.tolerance,
+            max_iterations=options.max_iterations,
+            progress=self._progress,
+        )
+        return self._finished(found.x, SphereMethod.NEWTON, found.status, found.history, start.unfolded)
+
+    def _augmented_lagrangian(self, start: SphereSolution) -> SphereSolution:
+        flat, history, converged = augmented_lagrangian(
+            SphereProblem(self.laplacian, self.surface.corners, self.mass),
+            start.x.reshape(-1),
+            max_iterations=self._options.max_iterations,
+            progress=self._progress,
+        )
+        status = Status.CONVERGED if converged else Status.MAX_ITERATIONS
+        x = unit(flat.reshape(-1, 3))
+        return self._finished(x, SphereMethod.AUGMENTED_LAGRANGIAN, status, history, start.unfolded)
+
+    def _finished(
+        self,
+        x: Real,
+        method: SphereMethod,
+        status: Status,
+        history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...] = (),
+        mended: int = 0,
+    ) -> SphereSolution:
+        """Positions after the repair, centred again."""
+        folds = inverted_faces(x, self.surface.corners)
+        if self._options.repair is not Repair.NEVER and len(folds):
+            moved = unfolded(self.surface, x, self._options.repair, self._progress)
+            if moved is not x:
+                moved = centred(moved, self.mass)
+                left = inverted_faces(moved, self.surface.corners)
+                dear = self._angle_mean(moved) > self._angle_mean(x) + DEAR
+                if len(left) < len(folds) and not (dear and self._options.repair is Repair.AUTO):
+                    mended += len(folds) - len(left)
+                    x, folds = moved, left
+        return SphereSolution(x, method, status, history, mended, folds, self._angle_mean(x))
+
+    def _angle_mean(self, x: Real) -> float:
+        return distortion_of(self.surface.geometry, self.surface.corners, x).angle_mean
+
+
+def _better(solutions: list[SphereSolution]) -> SphereSolution:
+    """The one with the least angle error; of those within what nobody looks for, the one with the fewest folds."""
+    least = min(one.angle_mean for one in solutions)
+    near = [one for one in solutions if one.angle_mean <= least + UNSEEN]
+    return min(near, key=lambda one: (len(one.folds), one.status is Status.STALLED, one.angle_mean))
