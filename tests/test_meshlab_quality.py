@@ -95,9 +95,8 @@ def test_a_texture_given_replaces_all_of_them(two_textures, tmp_path):
 def test_crowding_that_float32_can_not_hold_is_counted():
     """A ribbon 40 times as long as wide: its ends are smaller in the disk than single precision can tell apart."""
     V, F = strip(40)
-    numbers = conformal_disk(mesh_set(V, F))
     mesh_of = mesh_set(V, F)
-    conformal_disk(mesh_of)
+    numbers = conformal_disk(mesh_of, repair="never")
     uv = wedges(mesh_of)
     a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
     flat = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] <= 0  # float32 differences and products are exact in doubles

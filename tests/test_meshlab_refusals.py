@@ -109,7 +109,7 @@ def test_registered_it_is_a_filter_like_pymeshlabs_own(face_of_mask):
         assert numbers == conformal_disk(mesh_set(*face_of_mask), method="linear")
         assert method.__name__ == NAME and method.__doc__ == conformal_disk.__doc__
         own, plain = (inspect.signature(f).parameters for f in (getattr(pymeshlab.MeshSet, NAME), conformal_disk))
-        assert list(own)[1:] == list(plain)[1:] and own["method"].default == "newton"
+        assert list(own)[1:] == list(plain)[1:] and own["method"].default == "auto"
         with pytest.raises(TypeError):
             method("linear")  # as pymeshlab's own: keywords only
         with pytest.raises(pymeshlab.PyMeshLabException, match="Parameter colour not found"):

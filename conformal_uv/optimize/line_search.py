@@ -29,6 +29,7 @@ def line_search(
     *,
     length: float,
     noise: float,
+    halvings: int = HALVINGS,
 ) -> tuple[float, Place] | None:
     """Halve the step until the energy falls enough; None where no step does.
 
@@ -48,8 +49,10 @@ def line_search(
         The first step.
     noise : float
         Rounding of the difference of two energies.
+    halvings : int
+        Lengths that are tried.
     """
-    for _ in range(HALVINGS):
+    for _ in range(halvings):
         there = move(length)
         if there is not None:
             change = there.value - here

@@ -29,6 +29,7 @@ __all__ = ["ClosedSurface", "SphereSolution"]
 Real = NDArray[np.float64]
 
 LARGE = 10_000  # vertices, from where on one puncture must do and "auto" does without Newton's method
+WATCHED = 2_000  # from where on "auto" gives Newton's method up once it makes the angles worse
 PUNCTURES = 4  # that are tried on smaller surfaces
 UNSEEN = 0.01  # degrees of mean angle error
 DEAR = 0.5  # degrees that `repair="auto"` does not pay
@@ -88,7 +89,8 @@ class ClosedSurface:
             return self._newton(best)
         if self.surface.n >= LARGE:
             return best._replace(status=Status.NO_GAIN)
-        chosen = _better([*candidates, self._newton(best)])
+        newton = self._newton(best, best.angle_mean + UNSEEN if self.surface.n >= WATCHED else np.inf)
+        chosen = best if newton.status is Status.ANGLES else _better([*candidates, newton])
         return chosen if chosen.method is SphereMethod.NEWTON else chosen._replace(status=Status.ANGLES)
 
     def _linear(self) -> tuple[SphereSolution, Real]:
@@ -115,8 +117,8 @@ class ClosedSurface:
             found = relaxed
         return self._finished(found, SphereMethod.SCHWARZ, Status.DIRECT)
 
-    def _newton(self, start: SphereSolution) -> SphereSolution:
-        """The minimiser of the conformal energy near a solution."""
+    def _newton(self, start: SphereSolution, most: float = np.inf) -> SphereSolution:
+        """The minimiser of the conformal energy near a solution; given up at a mean angle error over `most`."""
         surface, options = self.surface, self._options
         grounded = np.array([most_regular_vertex(surface)])
         problem = DirichletProblem(
@@ -129,6 +131,7 @@ class ClosedSurface:
             tolerance=options.tolerance,
             max_iterations=options.max_iterations,
             progress=self._progress,
+            watch=lambda x: most == np.inf or self._angle_mean(x) <= most,
         )
         return self._finished(found.x, SphereMethod.NEWTON, found.status, found.history, start.unfolded)
 
