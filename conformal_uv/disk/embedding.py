@@ -18,13 +18,13 @@ from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.distortion import distortion_of
 from ..operators.mean_value import NeighbourMeans, surface_mean_value_matrix
-from ..operators.orientation_sign import flipped_faces, orientation_signs
+from ..operators.orientation_sign import collapsed_faces, flipped_faces, orientation_signs
 from ..options import Repair
 from ..progress import Progress
 from .placement import inside_disk
 from .repair import repaired
 
-__all__ = ["unfolded", "with_distinct_boundary", "with_sharp_ears"]
+__all__ = ["doubtful_faces", "unfolded", "with_distinct_boundary", "with_sharp_ears"]
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
@@ -32,8 +32,9 @@ Ints = NDArray[np.int64]
 
 # Radians: an ear's height over its chord is the square of its arc over 8, and doubles near 1 are 1e-16 apart.
 EAR_ARC = 3e-8
+DOUBTFUL_ARC = 1e-7  # up to which an ear's height is some rounding errors, and chance may have wound it rightly
 SMALLEST_ARC = 1e-15  # that neighbours on the circle keep; two doubles near 1 are told apart from 2e-16 on
-DEPTHS = 2.0 ** np.arange(-51, -41)  # below the circle; the last is less than 1e-12
+DEPTHS = 2.0 ** np.arange(-48, -40)  # below the circle: from well over its rounding to less than 1e-12
 SHARES = (0.0, 1e-13, 1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0)  # of equal spacing
 MOST_MENDED = 0.01  # of the faces; where more are folded, local repair would move everything anyway
 ROUNDS = 4  # of widening ears
@@ -74,7 +75,7 @@ def unfolded(
     z : (n,) complex128
         A map with the boundary on the circle in order; crowded vertices may coincide.
     folds : (k,) int64
-        The faces folded there.
+        The faces folded there, and those of which only rounding could say that they are not.
     fixed : (f,) int64
         Boundary vertices that stay where they are, at least one.
     repair : Repair
@@ -84,7 +85,7 @@ def unfolded(
     most = start.angle_mean + DEAR if repair is Repair.AUTO else np.inf
     crowded = len(folds) > MOST_MENDED * surface.m  # there an embedding may well have less angle error
     progress("repair", 0.0)
-    for tried in _ways(surface, problem, z, fixed, progress):
+    for tried in _ways(surface, problem, z, folds, fixed, progress):
         if tried.angle_mean <= most and tried.rank < best.rank:
             best = tried
         if not len(best.folds) and best.angle_mean <= start.angle_mean + CHEAP and not crowded:
@@ -93,9 +94,11 @@ def unfolded(
     return z if best is start else best.z
 
 
-def _ways(surface: Surface, problem: DirichletProblem, z: Complex, fixed: Ints, progress: Progress) -> Iterator[_Tried]:
+def _ways(
+    surface: Surface, problem: DirichletProblem, z: Complex, folds: Ints, fixed: Ints, progress: Progress
+) -> Iterator[_Tried]:
     loop, corners = problem.boundary, surface.corners
-    sharp = _tried(surface, with_sharp_ears(z, corners, loop, flipped_faces(z, corners)))
+    sharp = _tried(surface, with_sharp_ears(z, corners, loop, np.union1d(folds, flipped_faces(z, corners))))
     yield sharp
     if len(sharp.folds):
         yield _tried(surface, _mended(surface, loop, sharp.z, progress))
@@ -191,6 +194,20 @@ def with_distinct_boundary(z: Complex, loop: Ints, fixed: Ints) -> Complex:
     return out
 
 
+def doubtful_faces(z: Complex, corners: NDArray[np.int32], loop: Ints) -> Ints:
+    """Faces that are folded, or of which only rounding could say that they are not.
+
+    Some are flat; others are ears, faces of three neighbouring boundary vertices, on arcs of next to no height.
+    """
+    place = np.full(len(z), -1, dtype=np.int64)
+    place[loop] = np.arange(len(loop))
+    at = place[corners]
+    ears = np.flatnonzero((at >= 0).all(axis=0))
+    a, b, c = (z[corner] for corner in corners[:, ears])
+    longest = np.maximum(np.maximum(np.abs(b - a), np.abs(c - b)), np.abs(a - c))
+    return np.union1d(collapsed_faces(z, corners), ears[longest < DOUBTFUL_ARC])
+
+
 def with_sharp_ears(z: Complex, corners: NDArray[np.int32], loop: Ints, folds: Ints) -> Complex:
     """z with the neighbours of folded ears' tips a little inside the circle, by less than 1e-12.
 
@@ -247,7 +264,7 @@ def _mended(surface: Surface, loop: Ints, z: Complex, progress: Progress) -> Com
     """Local repair of the interior."""
     inside = np.ones(surface.n, dtype=bool)
     inside[loop] = False
-    return repaired(surface.corners, z, inside, lambda z: flipped_faces(z, surface.corners), progress)
+    return repaired(surface.corners, z, inside, lambda z: collapsed_faces(z, surface.corners), progress)
 
 
 def _arcs_of(places: Ints, count: int) -> Ints:

@@ -18,7 +18,7 @@ from ..options import DiskOptions, Laplacian, Method, Objective, Repair
 from ..progress import Callback, Progress
 from .anchors import anchored
 from .auto import solve_auto
-from .embedding import unfolded, with_distinct_boundary
+from .embedding import doubtful_faces, unfolded, with_distinct_boundary
 from .harmonic_measure import CentredMeasure, centred_measure
 from .placement import inside_disk, place_center, place_pins
 from .repair import Repair as RepairCost
@@ -127,9 +127,13 @@ class DiskMapper:
         distinct = with_distinct_boundary(z, self.boundary, fixed)
         if distinct is not z:
             z, flipped = distinct, flipped_faces(distinct, self.surface.corners)
-        if len(flipped) and options.repair is not Repair.NEVER and solution.problem is not None:
-            corners, folded, before = self.surface.corners, z, flipped
-            z = unfolded(self.surface, solution.problem, z, flipped, fixed, options.repair, progress)
+        if options.repair is Repair.NEVER or solution.problem is None:
+            return _Finished(solution, z, flipped, cost, center)
+        corners = self.surface.corners
+        doubtful = doubtful_faces(z, corners, self.boundary)
+        if len(doubtful):
+            folded, before = z, flipped
+            z = unfolded(self.surface, solution.problem, z, doubtful, fixed, options.repair, progress)
             if z is not folded:
                 z = recentred(z, center, corners) if options.pins is None else z
                 flipped = flipped_faces(z, corners)

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 
 from ..mesh.blocks import blocks
 
-__all__ = ["flipped_faces", "inverted_faces", "orientation_signs", "outward_signs"]
+__all__ = ["collapsed_faces", "flipped_faces", "inverted_faces", "orientation_signs", "outward_signs"]
 
 EPS = 0.5 * np.finfo(np.float64).eps
 ERROR_BOUND = (3.0 + 16.0 * EPS) * EPS
 # Of a . ((b - a) x (c - a)): two differences, two products, a difference, a product and two sums, each wrong by EPS.
 VOLUME_BOUND = 9.0 * EPS
+FLAT = 1e-12  # height over longest edge
 
 
 def orientation_signs(uv: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int8]:
@@ -88,6 +89,19 @@ def outward_signs(x: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray
 def flipped_faces(z: NDArray[np.complex128], corners: NDArray[np.int32]) -> NDArray[np.int64]:
     """Faces with non-positive area in the plane, decided exactly."""
     return np.flatnonzero(orientation_signs(np.ascontiguousarray(z).view(np.float64).reshape(-1, 2), corners) <= 0)
+
+
+def collapsed_faces(z: NDArray[np.complex128], corners: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Faces that are flipped, or flat but for rounding, which may have decided how they are wound."""
+    x, y = np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
+    found = []
+    for part in blocks(corners.shape[1]):
+        here = corners[:, part].astype(np.intp)
+        (ax, bx, cx), (ay, by, cy) = x.take(here), y.take(here)
+        left = (ax - cx) * (by - cy)
+        right = (ay - cy) * (bx - cx)
+        found.append(part.start + np.flatnonzero(left - right <= FLAT * (np.abs(left) + np.abs(right))))
+    return np.concatenate(found) if found else np.empty(0, dtype=np.int64)
 
 
 def inverted_faces(x: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int64]:
