@@ -31,12 +31,15 @@ class EdgeLaplacian:
         Vertices of each edge, lo < hi, sorted.
     weights : (e,) float64
     kind : {"cotan", "intrinsic-delaunay", "uniform"}
+    corners : (3, m) int32 or None
+        The triangles whose cotangents they are; None for the surface's own.
     """
 
     lo: NDArray[np.int32]
     hi: NDArray[np.int32]
     weights: NDArray[np.float64]
     kind: str
+    corners: NDArray[np.int32] | None = None
 
     def energy(self, z: NDArray[np.complex128]) -> float:
         """Dirichlet energy of a complex function on the vertices."""
@@ -104,7 +107,7 @@ def intrinsic_delaunay_edges(
     safe = mollified(lengths)
     if safe is not lengths or len(geometry.degenerate):
         delaunay = intrinsic_delaunay(corners, safe, edges.twin)
-        return _sorted(*_edges_around(delaunay, np.arange(corners.shape[1])), n)
+        return _sorted(*_edges_around(delaunay, np.arange(corners.shape[1])), n, delaunay.corners)
     plain = plain or cotan_edges(edges, geometry)
     negative = (plain.weights < 0.0) & (edges.count == 2)
     suspects = np.flatnonzero(negative[edges.edge])
@@ -115,7 +118,7 @@ def intrinsic_delaunay_edges(
     weights = np.where(negative, 0.0, plain.weights)[stays]  # Delaunay to rounding, where nothing was flipped
     lo, hi, fresh = _edges_around(delaunay, delaunay.changed)
     lo, hi = np.concatenate((edges.lo[stays], lo)), np.concatenate((edges.hi[stays], hi))
-    return _sorted(lo, hi, np.concatenate((weights, fresh)), n)
+    return _sorted(lo, hi, np.concatenate((weights, fresh)), n, delaunay.corners)
 
 
 def _edges_around(
@@ -140,7 +143,9 @@ def _edges_around(
     return np.minimum(lo, hi), np.maximum(lo, hi), weights[taken]
 
 
-def _sorted(lo: NDArray[np.int32], hi: NDArray[np.int32], weights: NDArray[np.float64], n: int) -> EdgeLaplacian:
+def _sorted(
+    lo: NDArray[np.int32], hi: NDArray[np.int32], weights: NDArray[np.float64], n: int, corners: NDArray[np.int32]
+) -> EdgeLaplacian:
     """The edges in order, those between the same two vertices taken together."""
     order = sorted_pairs(lo, hi, n)
     lo, hi, weights = lo.take(order), hi.take(order), weights.take(order)
@@ -153,4 +158,4 @@ def _sorted(lo: NDArray[np.int32], hi: NDArray[np.int32], weights: NDArray[np.fl
     held[lo[positive]] = held[hi[positive]] = True
     if not held.all():  # the tips of needles: all their cotangents are lost to rounding
         weights = np.where(held[lo] & held[hi], weights, np.maximum(weights, LEAST))
-    return EdgeLaplacian(lo, hi, weights, "intrinsic-delaunay")
+    return EdgeLaplacian(lo, hi, weights, "intrinsic-delaunay", corners)

@@ -34,7 +34,8 @@ class SphereProblem:
     """
 
     def __init__(self, laplacian: EdgeLaplacian, corners: NDArray[np.int32], mass: Real) -> None:
-        self.laplacian, self.corners, self.mass = laplacian, corners, mass
+        self.laplacian, self.mass = laplacian, mass
+        self.corners = corners if laplacian.corners is None else laplacian.corners
 
     def constraints(self, x: Real) -> Real:
         """c(x): one row for each vertex, three for the centre of mass, (n + 3,)."""

@@ -67,21 +67,28 @@ def _cross(p: Real, q: Real) -> Real:
 class SphereEnergy:
     """``1/2 tr(X' L X) - area`` at positions X of the unit sphere, its gradient and Hessian along the sphere.
 
+    The area is that of the triangles whose Laplacian L is, be they the surface's own or intrinsic ones: only of the
+    same triangles is it at most the Dirichlet energy.
+
     Attributes
     ----------
     x : (n, 3) float64
     value : float
-    signs : (m,) int8
-        1 for faces that are anticlockwise seen from outside, -1 for clockwise, exactly.
+    sound : (m,) or (2 m,) bool
+        The faces that are anticlockwise seen from outside, exactly; the intrinsic triangles after them.
     gradient : (n, 3) float64
         Tangent to the sphere at every vertex.
     """
 
     def __init__(self, laplacian: EdgeLaplacian, corners: NDArray[np.int32], x: Real) -> None:
-        self.laplacian, self.corners, self.x = laplacian, corners, unit(x)
+        self.laplacian, self.faces, self.x = laplacian, corners, unit(x)
+        self.corners = corners = corners if laplacian.corners is None else laplacian.corners
         self._double_area, normal, self._ab, self._ac = triangle_normals(self.x, corners)
-        self.signs = outward_signs(self.x, corners)
-        self._sign = np.where(self.signs < 0, -1.0, 1.0)
+        signs = outward_signs(self.x, corners)
+        self.sound: NDArray[np.bool_] = signs > 0
+        if corners is not self.faces:
+            self.sound = np.concatenate((outward_signs(self.x, self.faces) > 0, self.sound))
+        self._sign = np.where(signs < 0, -1.0, 1.0)
         self._normal = normal * self._sign[:, None]
         step = self.x[laplacian.lo] - self.x[laplacian.hi]
         dirichlet = 0.5 * float(laplacian.weights @ np.einsum("ij,ij->i", step, step))
@@ -89,6 +96,11 @@ class SphereEnergy:
         free = laplace(laplacian, self.x) - area_gradient(corners, self._normal, self._ab, self._ac, len(x))
         self._radial = np.einsum("ij,ij->i", free, self.x)
         self.gradient = free - self._radial[:, None] * self.x
+
+    def vertices_of(self, faces: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The vertices of faces numbered as in `sound`."""
+        both = self.faces if self.corners is self.faces else np.concatenate((self.faces, self.corners), axis=1)
+        return np.unique(both[:, faces]).astype(np.int64)
 
     def hessian_product(self, direction: Real) -> Real:
         """Riemannian Hessian times a tangent direction (n, 3)."""

@@ -156,17 +156,17 @@ def _unblocked(
 ) -> tuple[Real, NDArray[np.int64]]:
     """The direction without the vertices of faces that it would turn over, and all vertices that are held by now."""
     for number in range(ROUNDS):
-        blocking = np.flatnonzero((energy.signs > 0) & (_moved(energy, mass, direction).signs <= 0))
+        blocking = np.flatnonzero(energy.sound & ~_moved(energy, mass, direction).sound)
         if not len(blocking):
             break
-        still = np.union1d(still, energy.corners[:, blocking])
+        still = np.union1d(still, energy.vertices_of(blocking))
         direction = direction * (0.5 if number % PATIENCE == PATIENCE - 1 else 1.0)
         direction[still] = 0.0
     return direction, still
 
 
 def _moved(energy: SphereEnergy, mass: Real, step: Real) -> SphereEnergy:
-    return SphereEnergy(energy.laplacian, energy.corners, centred(unit(energy.x + step), mass))
+    return SphereEnergy(energy.laplacian, energy.faces, centred(unit(energy.x + step), mass))
 
 
 def _line_search(energy: SphereEnergy, held: _Held, mass: Real, direction: Real) -> tuple[float, SphereEnergy] | None:
@@ -174,11 +174,10 @@ def _line_search(energy: SphereEnergy, held: _Held, mass: Real, direction: Real)
     slope, norm = float(np.vdot(gradient, direction)), float(np.linalg.norm(gradient))
     noise = 64.0 * float(EPS) * (abs(energy.value) + 4.0 * np.pi)
     least = VOLUME_KEPT * _volume(energy)
-    sound = energy.signs > 0
 
     def move(length: float) -> SphereEnergy | None:
         trial = _moved(energy, mass, length * direction)
-        return trial if (trial.signs > 0)[sound].all() and _volume(trial) >= least else None
+        return trial if trial.sound[energy.sound].all() and _volume(trial) >= least else None
 
     def gradient_falls(there: SphereEnergy) -> bool:
         return bool(np.linalg.norm(held.project(there.tangent(there.gradient))) < norm)

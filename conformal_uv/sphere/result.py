@@ -27,7 +27,8 @@ class SphereMap:
     dirichlet_energy : float
         1/2 tr(xyz' L xyz), L the Laplacian that was solved with.
     conformal_energy : float
-        Dirichlet energy minus the area of the image polyhedron, in which inverted faces count negative.
+        Dirichlet energy minus the area of the image of the triangles whose Laplacian L is; inverted ones count
+        negative.
     signed_volume : float
         Of the image polyhedron; near 4 pi / 3 for a map that covers the sphere once with its orientation kept.
     flipped : (k,) int64

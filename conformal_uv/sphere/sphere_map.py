@@ -12,7 +12,7 @@ from ..errors import DisconnectedError, OptionError, TopologyError
 from ..linear.backends import choose_backend
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
-from ..operators.orientation_sign import outward_signs
+from ..operators.orientation_sign import inverted_faces, outward_signs
 from ..optimize import Status
 from ..options import Laplacian, Normalization, Repair, Rotation, SphereBoundary, SphereMethod, SphereOptions
 from ..progress import Callback, Progress
@@ -173,10 +173,11 @@ def _result(
     surface, laplacian = closed.surface, closed.laplacian
     a, b, c = (x[corner] for corner in surface.corners)
     dirichlet = sum(laplacian.energy(column.astype(np.complex128)) for column in x.T)
-    signs = outward_signs(x, surface.corners)
-    area = 0.5 * float(triangle_geometry(x, surface.corners).double_area @ np.where(signs < 0, -1.0, 1.0))
+    corners = surface.corners if laplacian.corners is None else laplacian.corners
+    wound = np.where(outward_signs(x, corners) < 0, -1.0, 1.0)
+    area = 0.5 * float(triangle_geometry(x, corners).double_area @ wound)
     vertices, faces = own
-    inverted = np.flatnonzero(signs <= 0)
+    inverted = inverted_faces(x, surface.corners)
     return SphereMap(
         xyz=x[:vertices],
         full=x,
