@@ -49,7 +49,10 @@ class Violation:
 def violations(maps: list[MapRow], changes: list[ChangeRow]) -> list[Violation]:
     """Of all checks, in their order."""
     found = [v for rows in by_mesh(maps).values() for v in _of_mesh(rows)]
-    found += [v for v in map(_of_change, changes) if v is not None]
+    changed: dict[str, list[ChangeRow]] = {}
+    for row in changes:
+        changed.setdefault(row.mesh, []).append(row)
+    found += [v for rows in changed.values() for v in _of_changes(rows)]
     return sorted(found, key=lambda v: (CHECKS.index(v.check), -v.amount, v.mesh))
 
 
@@ -92,7 +95,10 @@ def _of_mesh(all_rows: dict[str, MapRow]) -> Iterator[Violation]:
             yield Violation(FIGURES, mesh, max(row.mean - mean, 0.0), told)
 
 
-def _of_change(row: ChangeRow) -> Violation | None:
-    if row.before == row.after and row.difference <= 1e-6:
-        return None
-    return Violation(SAME, row.mesh, row.difference, f"{row.change}: {row.before}, {row.after}; {row.difference:.2e}")
+def _of_changes(rows: list[ChangeRow]) -> Iterator[Violation]:
+    """One for a mesh: its worst change, another method before another figure."""
+    bad = [row for row in rows if not (row.before == row.after and row.difference <= 1e-6)]
+    if bad:
+        worst = max(bad, key=lambda row: (row.before != row.after, row.difference))
+        told = f"{len(bad)} of {len(rows)} changes, the worst {worst.change}: {worst.before}, {worst.after}"
+        yield Violation(SAME, worst.mesh, worst.difference, f"{told}; {worst.difference:.1e} degrees")

@@ -31,8 +31,8 @@ and the brain surfaces inside nilearn's wheel are mapped alone. `CONFORMAL_UV_DA
 - **auto** is the default; **always** is the default with `repair="always"`. The column *auto is* has the method that it
   chose and why that stopped.
 - **exact**: the boundary is on the unit circle (a closed surface's vertices on the unit sphere) to 1e-12.
-- **time**: newton and auto over linear, of meshes from 10,000 vertices on, each in the best of up to three runs of one
-  process. Ratios of small meshes are those of fixed costs and are left out.
+- **time**: newton and auto over linear, of meshes from 10,000 vertices on, by the processor's time in the best of up
+  to three runs of one process. Ratios of small meshes are those of fixed costs and are left out.
 - In *italics*: the method stopped before its tolerance.
 - Other programs' figures were measured for this project by the same measure; they are not published ones.
 """
@@ -58,7 +58,7 @@ def _checks(broken: list[Violation], count: int, changes: list[ChangeRow]) -> li
         if check == SAME and not changes:
             lines.append(f"- {check}: not measured.")
             continue
-        lines.append(f"- {check}: {f'{len(here)} exceptions, the worst first:' if here else 'holds.'}")
+        lines.append(f"- {check}: {f'{len(here)} exceptions:' if here else 'holds.'}")
         lines += [f"  - {v.mesh}: {v.told}" for v in here]
     return lines
 
