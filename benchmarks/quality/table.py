@@ -43,6 +43,7 @@ def markdown(maps: list[MapRow], changes: list[ChangeRow], peers: list[Peer]) ->
     meshes = by_mesh(maps)
     broken = violations(maps, changes)
     lines = [INTRODUCTION, "## What must hold", "", *_checks(broken, len(meshes), changes), ""]
+    lines += ["## Where the default leaves faces folded", "", *_folded(meshes), ""]
     lines += ["## Where other programs are better", "", *_worse(meshes, peers), ""]
     for shape, title in (("disk", "Disks"), ("sphere", "Spheres")):
         here = {name: rows for name, rows in meshes.items() if next(iter(rows.values())).shape == shape}
@@ -61,6 +62,17 @@ def _checks(broken: list[Violation], count: int, changes: list[ChangeRow]) -> li
         lines.append(f"- {check}: {f'{len(here)} exceptions:' if here else 'holds.'}")
         lines += [f"  - {v.mesh}: {v.told}" for v in here]
     return lines
+
+
+def _folded(meshes: dict[str, dict[str, MapRow]]) -> list[str]:
+    """Folds of the default, and what it costs to have none."""
+    lines = []
+    for name, rows in meshes.items():
+        auto, always = rows.get("auto"), rows.get("always")
+        if auto and always and auto.folds:
+            ours, other = (_numbers(f"{row.mean:.3f} degrees", row.folds) for row in (auto, always))
+            lines.append(f'- {name}: {ours}; with `repair="always"` {other}.')
+    return lines or ["Nowhere."]
 
 
 def _worse(meshes: dict[str, dict[str, MapRow]], peers: list[Peer]) -> list[str]:
