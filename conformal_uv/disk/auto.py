@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
+from ..operators.dirichlet import DirichletProblem
 from ..operators.distortion import distortion_of
 from ..optimize import Status
 from ..options import DiskOptions
@@ -19,7 +20,8 @@ from ..progress import Progress
 from .boundary_energy import BoundaryEnergy
 from .gauge import CentreGauge
 from .harmonic_measure import CentredMeasure
-from .solution import LinearStart, Solution, solve_newton
+from .relative_energy import few_enough
+from .solution import LinearStart, Solution, solve_newton, solve_relative
 from .tangent import Tangent
 
 __all__ = ["solve_auto"]
@@ -44,13 +46,19 @@ def solve_auto(
     linear, energy = start.solution, start.energy
     if surface.n < LARGE:
         newton = solve_newton(surface, energy.problem, measure, options, progress)
-        return [linear._replace(status=Status.ANGLES), newton]
+        return _with_relative(surface, energy.problem, [linear._replace(status=Status.ANGLES), newton])
     if not _promising(surface, energy, measure):
         return [linear._replace(status=Status.NO_GAIN)]
     watch = _Watch(surface, energy)
     newton = solve_newton(surface, energy.problem, measure, options, progress, watch)
     linear = linear._replace(status=Status.ANGLES)
-    return [linear] if newton.status is Status.ANGLES else [linear, newton]
+    return _with_relative(surface, energy.problem, [linear, newton] if len(newton.history) > 1 else [linear])
+
+
+def _with_relative(surface: Surface, problem: DirichletProblem, found: list[Solution]) -> list[Solution]:
+    if not few_enough(problem):
+        return found
+    return [*found, *(one for start in found for one in solve_relative(surface, problem, start))]
 
 
 class _Watch:

@@ -66,7 +66,7 @@ def minimise_boundary_energy(
     theta : (nb,) float64
         Start, strictly increasing within one turn, but for neighbours too close for doubles.
     watch : callable
-        Given the energy after each step; the iteration ends where it is False.
+        Given the energy after each step; the iteration ends before the first where it is False.
     """
     history: list[NewtonStep] = []
     energy = BoundaryEnergy(problem, gauge.restore(theta), minus_area=minus_area)
@@ -105,11 +105,11 @@ def minimise_boundary_energy(
             status = Status.STALLED
             break
         step_length, better = found
-        history.append(NewtonStep(energy.value, norm, cg_steps, step_length))
-        energy = better
-        if not watch(energy):
+        if not watch(better):
             status = Status.ANGLES
             break
+        history.append(NewtonStep(energy.value, norm, cg_steps, step_length))
+        energy = better
     history.append(NewtonStep(energy.value, norm, 0, 0.0))
     return NewtonResult(energy, tuple(history), status is Status.CONVERGED, status)
 

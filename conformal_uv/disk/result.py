@@ -49,7 +49,8 @@ class DiskMap:
     repair : Repair or None
         What restoring folded faces cost; None where nothing was done.
     method, objective : str
-        What was solved; of "auto", which of the two it is.
+        What was solved; of "auto", which of the two it is. On boundaries of few vertices its objective may be
+        "relative": the shear of the faces, least of all boundary angles.
     status : str
         Why that stopped: "direct" (nothing to iterate), "converged", "stalled" (no step lowers the energy any more in
         doubles), "max-iterations"; of "auto" that kept the linear map, "angles" (Newton's method made them worse) or
@@ -136,7 +137,7 @@ def disk_map_result(
         repair=repair,
         method=solution.method,
         status=solution.status,
-        objective=str(options.objective),
+        objective="relative" if solution.relative else str(options.objective),
         laplacian="cotan" if solution.problem is None else solution.problem.laplacian.kind,
         center=center,
         pins=options.pins,

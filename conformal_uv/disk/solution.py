@@ -23,8 +23,9 @@ from .gauge import CentreGauge, PinGauge
 from .harmonic_measure import CentredMeasure
 from .newton import NewtonResult, minimise_boundary_energy
 from .placement import CUBE_ROOTS, place_pins
+from .relative_energy import least_shear
 
-__all__ = ["LinearStart", "Solution", "solve_augmented_lagrangian", "solve_linear", "solve_newton"]
+__all__ = ["LinearStart", "Solution", "solve_augmented_lagrangian", "solve_linear", "solve_newton", "solve_relative"]
 
 Complex = NDArray[np.complex128]
 
@@ -43,6 +44,7 @@ class Solution(NamedTuple):
     problem: DirichletProblem | None
     method: Method
     status: Status
+    relative: bool = False  # whether the shear was minimised, without a gauge
 
 
 class LinearStart(NamedTuple):
@@ -95,7 +97,25 @@ def solve_newton(
     if pins is not None:
         z[list(pins)] = CUBE_ROOTS
     center = None if released or pins is not None else measure.centre
-    return Solution(z, center, found.history, found.converged, problem, Method.NEWTON, found.status)
+    done = found.converged or found.status is Status.ANGLES
+    return Solution(z, center, found.history, done, problem, Method.NEWTON, found.status)
+
+
+def solve_relative(surface: Surface, problem: DirichletProblem, start: Solution) -> list[Solution]:
+    """The least shear of all boundary angles near those of another solution, by two measures of it."""
+    return [
+        Solution(
+            problem.extend(np.exp(1j * theta)),
+            None,
+            (),
+            True,
+            problem,
+            Method.NEWTON,
+            Status.CONVERGED,
+            relative=True,
+        )
+        for theta in least_shear(surface, problem, _angles(start.z[problem.boundary]))
+    ]
 
 
 def solve_augmented_lagrangian(

@@ -106,7 +106,7 @@ def minimise_sphere_energy(
     mass : (n,) float64
         Sum 1.
     watch : callable
-        Given the positions after each step; the iteration ends where it is False.
+        Given the positions after each step; the iteration ends before the first where it is False.
     """
     history: list[NewtonStep] = []
     energy, first, status = start, None, Status.CONVERGED
@@ -134,11 +134,11 @@ def minimise_sphere_energy(
             status = Status.STALLED
             break
         length, better = found
-        history.append(NewtonStep(energy.value, norm, steps, length))
-        energy = better
-        if not watch(energy.x):
+        if not watch(better.x):
             status = Status.ANGLES
             break
+        history.append(NewtonStep(energy.value, norm, steps, length))
+        energy = better
     history.append(NewtonStep(energy.value, norm, 0, 0.0))
     return SphereNewton(energy.x, tuple(history), status)
 

@@ -90,7 +90,7 @@ class ClosedSurface:
         if self.surface.n >= LARGE:
             return best._replace(status=Status.NO_GAIN)
         newton = self._newton(best, best.angle_mean + UNSEEN if self.surface.n >= WATCHED else np.inf)
-        chosen = best if newton.status is Status.ANGLES else _better([*candidates, newton])
+        chosen = _better([*candidates, newton] if len(newton.history) > 1 else candidates)
         return chosen if chosen.method is SphereMethod.NEWTON else chosen._replace(status=Status.ANGLES)
 
     def _linear(self) -> tuple[SphereSolution, Real]:

@@ -1,0 +1,109 @@
+"""Boundaries of few vertices: all boundary angles chosen for the faces' shear, none held by a gauge.
+
+A Moebius map of the disk leaves the energy of a fine boundary alone, but not that of a polygon of few corners inscribed
+in the circle: there the three angles that a gauge holds still matter as much as the others. A hole of three vertices
+has no others at all, and its triangle's shape decides how the whole surface is sheared. With f_z and f_zbar the
+derivatives of a face's map, ``sum w |f_zbar|^2 / sum w |f_z|^2`` can tell, for it does not fall as the image shrinks:
+with w the area it is the energy by the area of the image; with w = 1 / |f_z|^2 of the map before, it is the mean
+squared shear of all faces, however small their images are. Where the Laplacian is not that of the faces themselves its
+own energy by the area is a third measure.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from ..mesh.surface import Surface
+from ..operators.dirichlet import DirichletProblem
+from ..operators.wirtinger import planar_sides, unfolded_sides, wirtinger
+
+__all__ = ["few_enough", "least_shear"]
+
+Real = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+FEW = 8  # boundary vertices,
+FEW_OF_FEW = 32  # or so many on a surface of less than
+SMALL = 2_000  # vertices
+ROUNDS = 4  # of weights
+
+
+def few_enough(problem: DirichletProblem) -> bool:
+    """Whether the boundary has so few vertices that a gauge would cost angles; each costs a back-substitution."""
+    count = len(problem.boundary)
+    return 3 <= count <= (FEW_OF_FEW if problem.n < SMALL else FEW)
+
+
+def least_shear(surface: Surface, problem: DirichletProblem, theta: Real) -> list[Real]:
+    """Boundary angles (nb,) of the least shear near those given, by the three measures.
+
+    Faces alike: iteratively reweighted least squares (Lawson 1961).
+    """
+    slopes, flux, areas = _slopes(surface, problem)
+    found, weights = [_least_ratio(flux, _area_form(len(theta)), theta)], areas
+    for _ in range(ROUNDS):
+        theta = _least_ratio((slopes.T * weights) @ slopes.conj(), (slopes.T.conj() * weights) @ slopes, theta)
+        found.append(theta)
+        z = np.exp(1j * theta)
+        size = np.abs(slopes @ z) ** 2
+        weights = 1.0 / np.maximum(size, 1e-12 * size.max(initial=0.0) + np.finfo(np.float64).tiny)
+    return [*found[:2], found[-1]]
+
+
+def _slopes(surface: Surface, problem: DirichletProblem) -> tuple[Complex, Real, Real]:
+    """f_z (m, nb) of the faces that have area, for each boundary vertex at 1 and all others at 0; the flux (nb, nb) of
+    these functions, and the areas (m,).
+
+    The functions are real, so that f_zbar is the conjugate.
+    """
+    kept = np.setdiff1d(np.arange(surface.m), surface.degenerate)
+    corners, geometry = surface.corners[:, kept], surface.geometry
+    double_area = geometry.double_area[kept]
+    source = tuple(side[kept] for side in unfolded_sides(geometry))
+    slopes = np.empty((len(kept), len(problem.boundary)), dtype=np.complex128)
+    flux = np.empty((len(problem.boundary), len(problem.boundary)))
+    for k, unit in enumerate(np.eye(len(problem.boundary), dtype=np.complex128)):
+        z = problem.extend(unit)
+        slopes[:, k], _ = wirtinger((source[0], source[1]), planar_sides(z, corners), double_area)
+        flux[:, k] = problem.flux(unit, z[problem.interior]).real
+    return slopes, 0.5 * (flux + flux.T), 0.5 * double_area
+
+
+def _area_form(count: int) -> Complex:
+    """``z* form z`` is the area of the polygon."""
+    ahead = np.roll(np.eye(count), 1, axis=1)
+    return np.asarray((ahead - ahead.T) / 4j)
+
+
+def _least_ratio(above: Complex | Real, below: Complex, theta: Real) -> Real:
+    """Angles, near those given and in their order, of the least ``z* above z / z* below z``, z = exp(i theta).
+
+    The gaps between neighbours are the variables, as exponentials, so that their order stays.
+    """
+
+    def ratio(logs: Real) -> tuple[float, Real]:
+        gaps = _gaps(logs)
+        z = np.exp(1j * _angles(gaps))
+        pulls = above @ z, below @ z
+        high, low = (float(np.real(np.vdot(z, pull))) for pull in pulls)
+        if not low > 0.0:
+            return np.inf, np.zeros_like(gaps)
+        one, other = (2.0 * np.imag(np.conj(z) * pull) for pull in pulls)
+        along = one / low - high / low**2 * other
+        beyond = along.sum() - np.cumsum(along)  # of the vertices that a gap moves
+        return high / low, gaps * (beyond - float(beyond @ gaps) / (2.0 * np.pi))
+
+    gaps = np.maximum(np.diff(theta, append=theta[0] + 2.0 * np.pi), 1e-12)
+    return _angles(_gaps(minimize(ratio, np.log(gaps), jac=True, method="BFGS", options={"gtol": 1e-9}).x))
+
+
+def _gaps(logs: Real) -> Real:
+    """Gaps (nb,) in proportion to the exponentials, once around."""
+    grown = np.exp(logs - logs.max())
+    return np.asarray(2.0 * np.pi * grown / grown.sum())
+
+
+def _angles(gaps: Real) -> Real:
+    return np.concatenate(([0.0], np.cumsum(gaps)[:-1]))
