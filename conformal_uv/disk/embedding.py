@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import SolverError
 from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.distortion import distortion_of
@@ -115,7 +116,10 @@ def _ways(
     for number, share in enumerate(SHARES):
         progress("repair", number / len(SHARES))
         for extend in (problem.extend, by_mean_values):
-            yield _respaced(surface, loop, boundary, boundary.shared(share), extend, progress)
+            try:
+                yield _respaced(surface, loop, boundary, boundary.shared(share), extend, progress)
+            except SolverError:
+                continue
 
 
 def _tried(surface: Surface, z: Complex) -> _Tried:

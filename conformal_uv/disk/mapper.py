@@ -101,7 +101,8 @@ class DiskMapper:
             self._solved = options.solution_key, self._solve(options, progress)
         progress("placement", 0.0)
         candidates = [self._finished(solution, options, progress) for solution in self._solved[1]]
-        found = candidates[0] if len(candidates) == 1 else self._better(candidates)
+        always = options.repair is Repair.ALWAYS
+        found = candidates[0] if len(candidates) == 1 else self._better(candidates, always)
         solution = found.solution
         if not solution.converged:
             log.warning("%s stopped before its tolerance, after %d rows", solution.method, len(solution.history))
@@ -141,16 +142,27 @@ class DiskMapper:
             center = center if center is not None and z[center] == 0.0 else None
         return _Finished(solution, z, flipped, cost, center)
 
-    def _better(self, candidates: list[_Finished]) -> _Finished:
-        """The one with the least angle error; of those within what nobody looks for, the one with the fewest folds."""
+    def _better(self, candidates: list[_Finished], always: bool) -> _Finished:
+        """The one with the least angle error; of those within what nobody looks for, the one with the fewest folds.
+
+        Where folds are `always` mended whatever it costs, they come first.
+        """
         surface = self.surface
         means = [
             distortion_of(surface.geometry, surface.corners, one.z.view(np.float64).reshape(-1, 2)).angle_mean
             for one in candidates
         ]
-        near = [k for k in range(len(means)) if means[k] <= min(means) + UNSEEN]
+        most = np.inf if always else min(means) + UNSEEN
+        near = [k for k in range(len(means)) if means[k] <= most]
         return candidates[
-            min(near, key=lambda k: (len(candidates[k].flipped), not candidates[k].solution.converged, means[k]))
+            min(
+                near,
+                key=lambda k: (
+                    len(candidates[k].flipped),
+                    not (always or candidates[k].solution.converged),
+                    means[k],
+                ),
+            )
         ]
 
     def _problem(self, options: DiskOptions, progress: Progress) -> tuple[DirichletProblem, CentredMeasure]:

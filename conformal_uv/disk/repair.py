@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from ..errors import SolverError
 from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
 from ..operators.distortion import distortion_of
@@ -99,7 +100,10 @@ def repaired(
         patch = _ball(corners, folds, rings, len(z)) & movable
         if not patch.any():
             continue
-        moved = _untangled(z, corners, patch, folds)
+        try:
+            moved = _untangled(z, corners, patch, folds)
+        except SolverError:
+            continue
         z = _where_better(corners, patch, z, folds, moved, folds_of(moved))
         folds = folds_of(z)
     return z

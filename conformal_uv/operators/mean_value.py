@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import splu
 
+from ..errors import SolverError
 from ..mesh.surface import Surface
 
 __all__ = ["NeighbourMeans", "positive_mean_value_matrix", "surface_mean_value_matrix"]
@@ -21,6 +22,7 @@ __all__ = ["NeighbourMeans", "positive_mean_value_matrix", "surface_mean_value_m
 LEAST_ANGLE = 0.005  # radians, of the corners at a vertex with a folded face
 LEAST_RATIO = 0.01  # of the two edges of such a corner
 SHORTEST = 1e-14  # distance of neighbours in the unit disk
+NOWHERE = "Some vertices have no place between the others: the weights that tie them there are lost to rounding."
 LEAST_PART = 1e-12  # of the longest edge, taken for edges that are shorter
 
 
@@ -77,6 +79,11 @@ class NeighbourMeans:
         Not negative; rows of the free vertices complete.
     free : (k,) int64
         The vertices to place; from each some path of positive weights leads to another vertex.
+
+    Raises
+    ------
+    SolverError
+        For doubles there is no such path.
     """
 
     def __init__(self, weights: csr_array, free: NDArray[np.int64]) -> None:
@@ -86,7 +93,10 @@ class NeighbourMeans:
         system = csc_array(diags_array(np.ones(len(free))) - self._rows[:, free])
         options = {"SymmetricMode": True}
         if len(free):
-            self._solver = splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+            try:
+                self._solver = splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+            except RuntimeError as error:
+                raise SolverError(NOWHERE) from error
 
     def placed(self, z: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """z (n,) with the free vertices where the others put them."""
@@ -97,4 +107,6 @@ class NeighbourMeans:
         right = self._rows @ out
         solve = self._solver.solve
         out[self._free] = solve(np.ascontiguousarray(right.real)) + 1j * solve(np.ascontiguousarray(right.imag))
+        if not np.isfinite(out).all():
+            raise SolverError(NOWHERE)
         return out

@@ -6,19 +6,22 @@ sphere. Each fold is mended in the chart around it, together with all others tha
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from ..disk.repair import repaired
+from ..errors import SolverError
 from ..mesh.surface import Surface
 from ..operators.mean_value import NeighbourMeans, surface_mean_value_matrix
 from ..operators.orientation_sign import inverted_faces
-from ..options import Repair
 from ..progress import Progress
 from .centring import turn_to_pole, unit
 from .stereographic import from_plane, to_plane
 
-__all__ = ["unfolded"]
+__all__ = ["embeddings", "mended"]
 
 Real = NDArray[np.float64]
 
@@ -26,23 +29,11 @@ CHARTS = 20  # folds to project around
 HORIZON = 0.1  # height of what a chart shows; a pole's is 1
 
 
-def unfolded(surface: Surface, x: Real, repair: Repair, progress: Progress) -> Real:
+def mended(surface: Surface, x: Real, progress: Progress) -> Real:
     """Positions (n, 3) with fewer or no inverted faces; x itself where nothing was inverted or nothing helped.
 
-    Where patches do not mend all and `repair` is `always`, the surface without one face is embedded in the plane with
-    that face as its outline, by its positive mean value weights (Floater 1997), and the patches go on from there.
+    Patches are moved in charts around the folds: first a few charts for all, then one for each that is left.
     """
-    best = _mended(surface, x, progress)
-    folds = inverted_faces(best, surface.corners)
-    if len(folds) and repair is Repair.ALWAYS:
-        tried = _mended(surface, _embedded(surface, best, folds), progress)
-        if len(inverted_faces(tried, surface.corners)) < len(folds):
-            best = tried
-    return best
-
-
-def _mended(surface: Surface, x: Real, progress: Progress) -> Real:
-    """Patches moved in charts around the folds: first a few charts for all, then one for each that is left."""
     corners = surface.corners
     folds = inverted_faces(x, corners)
     for shared in (True, False):
@@ -87,8 +78,12 @@ def _in_chart(surface: Surface, x: Real, pole: Real, progress: Progress) -> tupl
     return back(repaired(corners, z, movable, folds_of, progress)), shown
 
 
-def _embedded(surface: Surface, x: Real, folds: NDArray[np.int64]) -> Real:
-    """The embedding in the plane whose outline is the sound face of the largest image, projected to the sphere."""
+def embeddings(surface: Surface, x: Real, folds: NDArray[np.int64]) -> Iterator[Real]:
+    """The surface without one face embedded in the plane with that face as its outline, projected to the sphere.
+
+    By its positive mean value weights (Floater 1997), then by uniform ones (Tutte 1963), which crowd the least. The
+    outline is the sound face with the largest image.
+    """
     corners = surface.corners
     a, b, c = (x[corner] for corner in corners)
     size = np.einsum("ij,ij->i", a, np.cross(b, c))
@@ -98,4 +93,14 @@ def _embedded(surface: Surface, x: Real, folds: NDArray[np.int64]) -> Real:
     z = np.zeros(surface.n, dtype=np.complex128)
     z[held] = to_plane((x @ turn.T)[held])
     free = np.setdiff1d(np.arange(surface.n), held)
-    return unit(from_plane(NeighbourMeans(surface_mean_value_matrix(surface), free).placed(z)) @ turn)
+    for weights in (surface_mean_value_matrix(surface), _uniform_matrix(surface)):
+        try:
+            yield unit(from_plane(NeighbourMeans(weights, free).placed(z)) @ turn)
+        except SolverError:
+            continue
+
+
+def _uniform_matrix(surface: Surface) -> csr_array:
+    lo, hi = surface.edges.lo, surface.edges.hi
+    ends = np.concatenate((lo, hi)), np.concatenate((hi, lo))
+    return csr_array((np.ones(2 * len(lo)), ends), shape=(surface.n, surface.n))

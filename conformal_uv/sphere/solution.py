@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +22,7 @@ from .centring import centred, unit
 from .energy import SphereEnergy
 from .newton import minimise_sphere_energy
 from .puncture import linear_sphere, most_regular_vertex, punctures
-from .repair import unfolded
+from .repair import embeddings, mended
 from .schwarz import TwoCharts
 
 __all__ = ["ClosedSurface", "SphereSolution"]
@@ -82,7 +83,7 @@ class ClosedSurface:
         schwarz = self._schwarz(raw)
         if schwarz is not None:
             candidates.append(schwarz)
-        best = _better(candidates)
+        best = self._better(candidates)
         if method is SphereMethod.SCHWARZ:
             return schwarz if schwarz is not None else linear
         if method is SphereMethod.NEWTON:
@@ -90,7 +91,7 @@ class ClosedSurface:
         if self.surface.n >= LARGE:
             return best._replace(status=Status.NO_GAIN)
         newton = self._newton(best, best.angle_mean + UNSEEN if self.surface.n >= WATCHED else np.inf)
-        chosen = _better([*candidates, newton] if len(newton.history) > 1 else candidates)
+        chosen = self._better([*candidates, newton] if len(newton.history) > 1 else candidates)
         return chosen if chosen.method is SphereMethod.NEWTON else chosen._replace(status=Status.ANGLES)
 
     def _linear(self) -> tuple[SphereSolution, Real]:
@@ -152,27 +153,39 @@ class ClosedSurface:
         method: SphereMethod,
         status: Status,
         history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...] = (),
-        mended: int = 0,
+        unfolded: int = 0,
     ) -> SphereSolution:
         """Positions after the repair, centred again."""
-        folds = inverted_faces(x, self.surface.corners)
+        start = folds = inverted_faces(x, self.surface.corners)
+        mean = self._angle_mean(x)
         if self._options.repair is not Repair.NEVER and len(folds):
-            moved = unfolded(self.surface, x, self._options.repair, self._progress)
-            if moved is not x:
-                moved = centred(moved, self.mass)
-                left = inverted_faces(moved, self.surface.corners)
-                dear = self._angle_mean(moved) > self._angle_mean(x) + DEAR
-                if len(left) < len(folds) and not (dear and self._options.repair is Repair.AUTO):
-                    mended += len(folds) - len(left)
-                    x, folds = moved, left
-        return SphereSolution(x, method, status, history, mended, folds, self._angle_mean(x))
+            most = mean + DEAR if self._options.repair is Repair.AUTO else np.inf
+            for moved in self._unfolded(x, folds):
+                left, cost = inverted_faces(moved, self.surface.corners), self._angle_mean(moved)
+                if len(left) < len(folds) and cost <= most:
+                    x, folds, mean = moved, left, cost
+                if not len(folds):
+                    break
+        return SphereSolution(x, method, status, history, unfolded + len(start) - len(folds), folds, mean)
+
+    def _unfolded(self, x: Real, folds: NDArray[np.int64]) -> Iterator[Real]:
+        """Positions with fewer folds, dearer and dearer; the centre of mass but for patches in the middle."""
+        surface, progress = self.surface, self._progress
+        yield mended(surface, centred(mended(surface, x, progress), self.mass), progress)
+        if self._options.repair is Repair.ALWAYS:
+            for embedded in embeddings(surface, x, folds):
+                yield mended(surface, centred(mended(surface, embedded, progress), self.mass), progress)
 
     def _angle_mean(self, x: Real) -> float:
         return distortion_of(self.surface.geometry, self.surface.corners, x).angle_mean
 
+    def _better(self, solutions: list[SphereSolution]) -> SphereSolution:
+        """The one with the least angle error; of those within what nobody looks for, the one with the fewest folds.
 
-def _better(solutions: list[SphereSolution]) -> SphereSolution:
-    """The one with the least angle error; of those within what nobody looks for, the one with the fewest folds."""
-    least = min(one.angle_mean for one in solutions)
-    near = [one for one in solutions if one.angle_mean <= least + UNSEEN]
-    return min(near, key=lambda one: (len(one.folds), one.status is Status.STALLED, one.angle_mean))
+        Where folds are to be mended whatever it costs, they come first.
+        """
+        if self._options.repair is Repair.ALWAYS:
+            return min(solutions, key=lambda one: (len(one.folds), one.angle_mean))
+        least = min(one.angle_mean for one in solutions)
+        near = [one for one in solutions if one.angle_mean <= least + UNSEEN]
+        return min(near, key=lambda one: (len(one.folds), one.status is Status.STALLED, one.angle_mean))

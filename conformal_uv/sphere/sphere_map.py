@@ -17,6 +17,7 @@ from ..optimize import Status
 from ..options import Laplacian, Normalization, Repair, Rotation, SphereBoundary, SphereMethod, SphereOptions
 from ..progress import Callback, Progress
 from .centring import centred, landmark_aligned, principal_rotation, surface_rotation, unit
+from .repair import mended
 from .result import SphereMap
 from .solution import ClosedSurface, SphereSolution
 
@@ -122,6 +123,8 @@ def sphere_map(
         log.warning("%s stopped before its tolerance, after %d rows", solution.method, len(solution.history))
     progress("placement", 0.0)
     x = _placed(surface, solution.x, closed.mass, options)
+    if options.repair is not Repair.NEVER and len(inverted_faces(x, surface.corners)) > len(solution.folds):
+        x = mended(surface, x, progress)  # crowded faces that rounding has turned over
     result = _result(closed, x, (n, m), solution, converged, options)
     progress("placement", 1.0)
     return result
