@@ -23,6 +23,7 @@ from ..operators.edge_laplacian import edge_laplacian
 __all__ = ["CentredMeasure", "angles_of_measure", "centred_measure"]
 
 MOST_OF_ONE = 0.49  # of the harmonic measure
+NOTHING = 1e-12  # of a neighbour's measure: what is left of weights that cancel
 ALIKE = 1e-9  # part of the torsion function's peak
 
 
@@ -109,7 +110,8 @@ def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]
     lengths : (nb,)
         Of the boundary edge from each vertex to the next.
     """
-    bearing = np.flatnonzero(measure > 0.0)
+    beside = np.maximum(np.roll(measure, 1), np.roll(measure, -1))
+    bearing = np.flatnonzero((measure > 0.0) & (measure > NOTHING * beside))
     on_edge = _spread(measure, lengths, bearing) if len(bearing) else lengths
     if not on_edge.any():  # all of it lost to rounding, on needles
         on_edge = lengths if lengths.any() else np.ones(len(lengths))

@@ -14,6 +14,7 @@ from ..operators.dirichlet import DirichletProblem
 from ..operators.distortion import distortion_of
 from ..operators.edge_laplacian import edge_laplacian
 from ..operators.orientation_sign import flipped_faces
+from ..optimize.choice import best_map
 from ..options import DiskOptions, Laplacian, Method, Objective, Repair
 from ..progress import Callback, Progress
 from .anchors import anchored
@@ -29,8 +30,6 @@ from .solution import Solution, solve_augmented_lagrangian, solve_linear, solve_
 __all__ = ["DiskMapper"]
 
 log = logging.getLogger(__name__)
-
-UNSEEN = 0.01  # degrees of mean angle error
 
 
 class _Finished(NamedTuple):
@@ -143,27 +142,15 @@ class DiskMapper:
         return _Finished(solution, z, flipped, cost, center)
 
     def _better(self, candidates: list[_Finished], always: bool) -> _Finished:
-        """The one with the least angle error; of those within what nobody looks for, the one with the fewest folds.
-
-        Where folds are `always` mended whatever it costs, they come first.
-        """
+        """The best of them; where folds are `always` mended whatever it costs, they come first."""
         surface = self.surface
         means = [
             distortion_of(surface.geometry, surface.corners, one.z.view(np.float64).reshape(-1, 2)).angle_mean
             for one in candidates
         ]
-        most = np.inf if always else min(means) + UNSEEN
-        near = [k for k in range(len(means)) if means[k] <= most]
-        return candidates[
-            min(
-                near,
-                key=lambda k: (
-                    len(candidates[k].flipped),
-                    not (always or candidates[k].solution.converged),
-                    means[k],
-                ),
-            )
-        ]
+        folds = [len(one.flipped) for one in candidates]
+        unfinished = [not one.solution.converged for one in candidates]
+        return candidates[best_map(means, folds, unfinished, folds_first=always)]
 
     def _problem(self, options: DiskOptions, progress: Progress) -> tuple[DirichletProblem, CentredMeasure]:
         """The factorization and the harmonic measure that the options need, made at the first call.

@@ -75,7 +75,7 @@ def minimise_boundary_energy(
     degrees = problem.Lbb.diagonal()
     tolerance = max(tolerance, 64.0 * float(EPS) * float(np.linalg.norm(degrees)))
     first, status = None, Status.CONVERGED
-    for iteration in range(max_iterations + 1):
+    while True:  # every round makes a step or a link, and links are no more than vertices
         tangent = Tangent(gauge, energy.theta, links)
         norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         if norm <= tolerance:
@@ -91,7 +91,7 @@ def minimise_boundary_energy(
         progress("newton", reached)
         if norm <= tolerance:
             break
-        if iteration == max_iterations:
+        if len(history) == max_iterations:
             status = Status.MAX_ITERATIONS
             break
         direction, cg_steps = _newton_direction(energy, gauge, tangent, tolerance, partial(progress, "newton", reached))

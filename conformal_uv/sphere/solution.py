@@ -15,6 +15,7 @@ from ..operators.distortion import distortion_of
 from ..operators.edge_laplacian import EdgeLaplacian, edge_laplacian
 from ..operators.orientation_sign import inverted_faces
 from ..optimize import AugmentedLagrangianStep, NewtonStep, Status, augmented_lagrangian
+from ..optimize.choice import UNSEEN, best_map
 from ..options import Repair, SphereMethod, SphereOptions
 from ..progress import Progress
 from .augmented_lagrangian import SphereProblem
@@ -32,7 +33,6 @@ Real = NDArray[np.float64]
 LARGE = 10_000  # vertices, from where on one puncture must do and "auto" does without Newton's method
 WATCHED = 2_000  # from where on "auto" gives Newton's method up once it makes the angles worse
 PUNCTURES = 4  # that are tried on smaller surfaces
-UNSEEN = 0.01  # degrees of mean angle error
 DEAR = 0.5  # degrees that `repair="auto"` does not pay
 
 
@@ -180,12 +180,9 @@ class ClosedSurface:
         return distortion_of(self.surface.geometry, self.surface.corners, x).angle_mean
 
     def _better(self, solutions: list[SphereSolution]) -> SphereSolution:
-        """The one with the least angle error; of those within what nobody looks for, the one with the fewest folds.
-
-        Where folds are to be mended whatever it costs, they come first.
-        """
-        if self._options.repair is Repair.ALWAYS:
-            return min(solutions, key=lambda one: (len(one.folds), one.angle_mean))
-        least = min(one.angle_mean for one in solutions)
-        near = [one for one in solutions if one.angle_mean <= least + UNSEEN]
-        return min(near, key=lambda one: (len(one.folds), one.status is Status.STALLED, one.angle_mean))
+        """The best of them; where folds are to be mended whatever it costs, they come first."""
+        folds_first = self._options.repair is Repair.ALWAYS
+        means = [one.angle_mean for one in solutions]
+        folds = [len(one.folds) for one in solutions]
+        stalled = [one.status is Status.STALLED for one in solutions]
+        return solutions[best_map(means, folds, stalled, folds_first=folds_first)]
