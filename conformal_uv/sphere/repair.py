@@ -42,8 +42,10 @@ def mended(surface: Surface, x: Real, progress: Progress) -> Real:
             left = folds[~seen[folds]]
             if not len(left):
                 break
-            seen[left[0]] = True
-            pole = x[corners[:, left[0]]].sum(axis=0)
+            a, b, c = x[corners[:, left]]
+            widest = np.argmax(np.linalg.norm(b - a, axis=1) + np.linalg.norm(c - b, axis=1))  # however numbered
+            seen[left[widest]] = True
+            pole = (a + b + c)[widest]
             size = float(np.linalg.norm(pole))
             if size > HORIZON:
                 x, shown = _in_chart(surface, x, pole / size, progress)
