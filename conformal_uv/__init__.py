@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         TopologyError,
         UnreferencedVertexError,
     )
+    from .free import FreeMap, free_map
     from .mesh import PolygonMesh, Surface
     from .mesh.triangulate import triangulate
     from .operators import (
@@ -71,6 +72,7 @@ __all__ = [
     "DistortionNumbers",
     "DuplicateFaceError",
     "FileFormatError",
+    "FreeMap",
     "MeshError",
     "MissingDependencyError",
     "Moebius",
@@ -100,6 +102,7 @@ __all__ = [
     "equirectangular",
     "face_areas",
     "flipped_polygons",
+    "free_map",
     "gradient",
     "mixed_voronoi_areas",
     "octahedral",
@@ -125,6 +128,7 @@ _HOME = {
     "DistortionNumbers": "report",
     "DuplicateFaceError": "errors",
     "FileFormatError": "errors",
+    "FreeMap": "free",
     "MeshError": "errors",
     "MissingDependencyError": "errors",
     "Moebius": "operators",
@@ -153,6 +157,7 @@ _HOME = {
     "equirectangular": "sphere",
     "face_areas": "operators",
     "flipped_polygons": "report",
+    "free_map": "free",
     "gradient": "operators",
     "mixed_voronoi_areas": "operators",
     "octahedral": "sphere",

@@ -15,13 +15,14 @@ from typing import Any, Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import OptionError
+from .errors import OptionError, listed
 
 __all__ = [
     "Backend",
     "Choice",
     "Closed",
     "DiskOptions",
+    "FreeOptions",
     "Holes",
     "Laplacian",
     "Method",
@@ -44,6 +45,9 @@ __all__ = [
 ]
 
 INFINITY = float("inf")
+MOST_SCALE = 50.0  # of a logarithm; the squares of such scale factors are far from what doubles hold
+FULL_TURN = 2.0 * np.pi
+TURN_ROUNDING = 1e-6
 C = TypeVar("C", bound="Choice")
 
 
@@ -403,6 +407,58 @@ class SphereOptions(Limits):
             except (TypeError, ValueError) as error:
                 raise OptionError(f"landmarks is {self.landmarks!r}; pass three vertex indices.") from error
             _set(self, landmarks=(a, b, c))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FreeOptions:
+    """What the boundary of a flat surface is to be like; see `free_map`.
+
+    `boundary_scale` and `boundary_angles` (nb,) follow the boundary loop; how many there are to be is checked where the
+    surface is at hand.
+    """
+
+    boundary_scale: NDArray[np.float64] | None = None
+    boundary_angles: NDArray[np.float64] | None = None
+    refine: bool = False
+    repair: Repair = Repair.AUTO
+
+    def __post_init__(self) -> None:
+        _set(self, repair=Repair.of("repair", self.repair), refine=_flag("refine", self.refine))
+        for name in ("boundary_scale", "boundary_angles"):
+            if getattr(self, name) is not None:
+                _set(self, **{name: _real_numbers(name, getattr(self, name))})
+        scale, angles = self.boundary_scale, self.boundary_angles
+        if scale is not None and angles is not None:
+            raise OptionError("boundary_scale and boundary_angles determine each other; pass one of them.")
+        if self.refine and (scale is not None or angles is not None):
+            raise OptionError("refine moves the boundary; leave out boundary_scale and boundary_angles, or refine.")
+        if scale is not None and len(scale) and np.abs(scale).max() > MOST_SCALE:
+            raise OptionError(f"boundary_scale goes up to {np.abs(scale).max():g}; pass logarithms of scale factors.")
+        if angles is not None:
+            if abs(angles.sum() - FULL_TURN) > TURN_ROUNDING:
+                raise OptionError(f"boundary_angles sum to {angles.sum():.9g}; a closed boundary turns by 2 pi.")
+            _set(self, boundary_angles=angles + (FULL_TURN - angles.sum()) / len(angles))
+
+
+def _flag(name: str, value: object) -> bool:
+    if not isinstance(value, bool | np.bool_):
+        raise OptionError(f"{name} is {value!r}; pass True or False.")
+    return bool(value)
+
+
+def _real_numbers(name: str, values: object) -> NDArray[np.float64]:
+    """The values as a row of finite numbers of their own."""
+    try:
+        given = np.asarray(values)
+        if given.dtype.kind not in "iuf" or given.ndim != 1:
+            raise TypeError(f"dtype {given.dtype}, shape {given.shape}")
+        numbers = given.astype(np.float64)
+    except (TypeError, ValueError) as error:
+        raise OptionError(f"{name} is no row of numbers ({error}); pass one for each boundary vertex.") from error
+    bad = np.flatnonzero(~np.isfinite(numbers))
+    if len(bad):
+        raise OptionError(f"{name} is NaN or infinite at places {listed(bad)}; pass finite numbers.", bad)
+    return numbers
 
 
 def _three(pins: Sequence[int]) -> tuple[int, int, int]:

@@ -33,6 +33,7 @@ def test_example(path: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ca
         "disk_map",
         "unwrap",
         "sphere_map",
+        "free_map",
         "distortion",
         "gradient",
         "face_areas",
