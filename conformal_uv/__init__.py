@@ -1,4 +1,4 @@
-"""Conformal maps of triangle meshes onto the unit disk and the unit sphere.
+"""Conformal maps of triangle meshes onto the unit disk, the plane, rectangles and the unit sphere.
 
 Nothing is imported before a name is asked for, so that the command can answer Ctrl-C while numpy and scipy load.
 """
@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     )
     from .optimize import AugmentedLagrangianStep, NewtonStep
     from .progress import Callback
+    from .rectangle import RectangleMap, rectangle_map
     from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, flipped_polygons, unwrap_numbers
     from .sphere import SphereMap, equirectangular, octahedral, sphere_map
 
@@ -83,6 +84,7 @@ __all__ = [
     "OrientationError",
     "Placement",
     "PolygonMesh",
+    "RectangleMap",
     "Remedy",
     "Repair",
     "SolverError",
@@ -107,6 +109,7 @@ __all__ = [
     "mixed_voronoi_areas",
     "octahedral",
     "pack_together",
+    "rectangle_map",
     "sphere_map",
     "triangulate",
     "uniform_laplacian",
@@ -139,6 +142,7 @@ _HOME = {
     "OrientationError": "errors",
     "Placement": "charts",
     "PolygonMesh": "mesh",
+    "RectangleMap": "rectangle",
     "Remedy": "errors",
     "Repair": "disk.repair",
     "SolverError": "errors",
@@ -162,6 +166,7 @@ _HOME = {
     "mixed_voronoi_areas": "operators",
     "octahedral": "sphere",
     "pack_together": "charts",
+    "rectangle_map": "rectangle",
     "sphere_map": "sphere",
     "triangulate": "mesh.triangulate",
     "uniform_laplacian": "operators",

@@ -21,6 +21,7 @@ __all__ = [
     "Backend",
     "Choice",
     "Closed",
+    "CornerChoice",
     "DiskOptions",
     "FreeOptions",
     "Holes",
@@ -33,6 +34,7 @@ __all__ = [
     "PinMode",
     "Place",
     "PlaceOptions",
+    "RectangleOptions",
     "Repair",
     "Rotation",
     "SphereBoundary",
@@ -179,6 +181,13 @@ class Place(Choice):
         return ", "
 
 
+class CornerChoice(Choice):
+    """Which boundary vertices become the corners of a rectangle."""
+
+    TURNING = "turning"
+    AREA = "area"
+
+
 class SphereBoundary(Choice):
     """Boundary loops of a surface that goes onto the sphere."""
 
@@ -312,7 +321,7 @@ class DiskOptions(Limits):
             raise OptionError('The linear method does not optimise; it takes pins only with pin_mode="moebius".')
         self._check_limits()
         if self.pins is not None:
-            _set(self, pins=_three(self.pins))
+            _set(self, pins=_vertices("pins", self.pins, 3, "three"))
         if self.needs_pins and (self.center is not None or self.boundary_vertex is not None):
             raise OptionError("Three pins already fix the map; leave out center and boundary_vertex.")
         for name in ("center", "boundary_vertex"):
@@ -440,6 +449,34 @@ class FreeOptions:
             _set(self, boundary_angles=angles + (FULL_TURN - angles.sum()) / len(angles))
 
 
+@dataclass(frozen=True, kw_only=True)
+class RectangleOptions:
+    """Which vertices become the corners of a rectangle; see `rectangle_map`.
+
+    Vertices are those of the mesh; `rectangle.corners.given_corners` checks them against a surface.
+    """
+
+    corners: tuple[int, int, int, int] | None = None
+    corner_choice: CornerChoice = CornerChoice.TURNING
+    repair: Repair = Repair.AUTO
+
+    def __post_init__(self) -> None:
+        _set(
+            self,
+            corner_choice=CornerChoice.of("corner_choice", self.corner_choice),
+            repair=Repair.of("repair", self.repair),
+        )
+        if self.corners is not None:
+            _set(self, corners=_vertices("corners", self.corners, 4, "four"))
+            if self.compares:
+                raise OptionError('corners are given, so corner_choice="area" chooses nothing; leave out one of them.')
+
+    @property
+    def compares(self) -> bool:
+        """Whether several maps are made, to take the best."""
+        return self.corner_choice is CornerChoice.AREA
+
+
 def _flag(name: str, value: object) -> bool:
     if not isinstance(value, bool | np.bool_):
         raise OptionError(f"{name} is {value!r}; pass True or False.")
@@ -461,15 +498,14 @@ def _real_numbers(name: str, values: object) -> NDArray[np.float64]:
     return numbers
 
 
-def _three(pins: Sequence[int]) -> tuple[int, int, int]:
+def _vertices(name: str, values: Sequence[int], count: int, word: str) -> tuple[int, ...]:
     try:
-        values = list(pins)
+        found = list(values)
     except TypeError as error:
-        raise OptionError(f"pins is {pins!r}; pass three boundary vertices.") from error
-    if len(values) != 3:
-        raise OptionError(f"{len(values)} pins; pass three boundary vertices.")
-    a, b, c = (vertex_index("pins", value) for value in values)
-    return a, b, c
+        raise OptionError(f"{name} is {values!r}; pass {word} boundary vertices.") from error
+    if len(found) != count:
+        raise OptionError(f"{len(found)} {name}; pass {word} boundary vertices.")
+    return tuple(vertex_index(name, value) for value in found)
 
 
 def _set(options: Any, **values: Any) -> None:

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from conformal_uv import samples
 from conformal_uv.errors import SolverError
 from conformal_uv.free.conjugate import extended_without_mirrored_part
-from conformal_uv.free.curvature import corner_angles, curvatures
 from conformal_uv.free.polygon import closed_polygon, closing_lengths
 from conformal_uv.mesh.surface import Surface
 from conformal_uv.operators import boundary_operator, cotangent_laplacian
 from conformal_uv.operators.boundary_operator import BoundaryOperator
+from conformal_uv.operators.curvature import corner_angles, curvatures
 from conformal_uv.operators.dirichlet import DirichletProblem
 from conformal_uv.operators.edge_laplacian import cotan_edges
 from conformal_uv.operators.polygon_crossings import polygon_crossings

@@ -34,6 +34,7 @@ def test_example(path: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ca
         "unwrap",
         "sphere_map",
         "free_map",
+        "rectangle_map",
         "distortion",
         "gradient",
         "face_areas",

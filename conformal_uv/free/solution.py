@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from ..errors import OptionError, SolverError
 from ..mesh.surface import Surface
 from ..operators.boundary_operator import BoundaryOperator
+from ..operators.curvature import curvatures
 from ..operators.dirichlet import DirichletProblem
 from ..options import FreeOptions
 from ..progress import Progress
 from .conjugate import extended_without_mirrored_part
-from .curvature import curvatures
 from .polygon import closed_polygon
 
 __all__ = ["solve_free"]

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
-from ..operators.laplacian import intrinsic_geometry
-from ..operators.mollification import mollified
+from .laplacian import intrinsic_geometry
+from .mollification import mollified
 
 __all__ = ["corner_angles", "curvatures"]
 
