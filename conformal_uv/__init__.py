@@ -57,6 +57,7 @@ if TYPE_CHECKING:
     from .progress import Callback
     from .rectangle import RectangleMap, rectangle_map
     from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, flipped_polygons, unwrap_numbers
+    from .shape_mapper import ShapeMapper
     from .sphere import SphereMap, equirectangular, octahedral, sphere_map
 
 __all__ = [
@@ -87,6 +88,7 @@ __all__ = [
     "RectangleMap",
     "Remedy",
     "Repair",
+    "ShapeMapper",
     "SolverError",
     "SphereMap",
     "Surface",
@@ -145,6 +147,7 @@ _HOME = {
     "RectangleMap": "rectangle",
     "Remedy": "errors",
     "Repair": "disk.repair",
+    "ShapeMapper": "shape_mapper",
     "SolverError": "errors",
     "SphereMap": "sphere",
     "Surface": "mesh",

@@ -43,6 +43,7 @@ def test_example(path: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ca
         "cotangent_laplacian_intrinsic",
         "uniform_laplacian",
         "DiskMapper",
+        "ShapeMapper",
         "Unwrapper",
         "Moebius",
         "unwrap_numbers",

@@ -14,7 +14,7 @@ from nasty_meshes import EMBEDDED, REFUSED
 import conformal_uv as cuv
 from conformal_uv import samples
 from conformal_uv.disk.repair import Repair
-from conformal_uv.operators.factorized_disk import FactorizedDisk
+from conformal_uv.operators import dirichlet
 from conformal_uv.options import FreeOptions
 
 LOST = {"tube of 30 diameters"}  # its shut end is 1e-27 of the rim
@@ -265,19 +265,22 @@ def test_options_are_frozen_and_own_their_numbers() -> None:
 
 
 def test_one_factorization_serves_disk_and_free(monkeypatch: pytest.MonkeyPatch) -> None:
-    from conformal_uv.free import mapped_free
-    from conformal_uv.operators import dirichlet
-    from conformal_uv.progress import Progress
-
     made = []
     original = dirichlet.linear_solver
-    monkeypatch.setattr(dirichlet, "linear_solver", lambda *a: made.append(1) or original(*a))
-    factorized = FactorizedDisk(*MASK)
-    disk = cuv.DiskMapper.of(factorized).map(method="linear")
-    free = mapped_free(factorized, FreeOptions(), Progress())
+    monkeypatch.setattr(dirichlet, "linear_solver", lambda *given: made.append(1) or original(*given))
+    mapper = cuv.ShapeMapper(*MASK)
+    disk, free = mapper.disk(method="linear"), mapper.free()
     assert len(made) == 1
+    rectangle = mapper.rectangle()
+    assert len(made) == 3
     np.testing.assert_array_equal(disk.uv, cuv.disk_map(*MASK, method="linear").uv)
     np.testing.assert_array_equal(free.uv, cuv.free_map(*MASK).uv)
+    np.testing.assert_array_equal(rectangle.uv, cuv.rectangle_map(*MASK).uv)
+    assert mapper.free(callback=lambda stage, part: stage != "factorization").status == "direct"
+    with pytest.raises(cuv.CancelledError):
+        mapper.rectangle(callback=lambda stage, part: stage != "factorization")
+    with pytest.raises(TypeError, match="refined"):
+        mapper.free(refined=True)
 
 
 def peers(data_folder: Path, program: str) -> dict[str, float]:
