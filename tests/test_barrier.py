@@ -82,6 +82,25 @@ def test_the_gradient_is_the_derivative(place) -> None:
     assert here.gradient @ direction == pytest.approx(slope, rel=1e-6)
 
 
+@pytest.mark.parametrize("softness", [1e-3, 1.0])
+def test_a_soft_barrier_has_an_energy_where_faces_fold(place, softness: float) -> None:
+    surface, here = place
+    z = here.z.copy()
+    inner = int(np.setdiff1d(np.arange(surface.n), surface.loops[0])[20])
+    z[inner] += 0.4 * np.ptp(z.real)  # across some faces
+    folded = BarrierPlace(FaceDerivatives(surface, np.arange(surface.m)), np.arange(2, surface.n), z, softness)
+    assert (folded.jacobian < 0.0).any() and folded.finite and np.isfinite(folded.value)
+    assert not folded.softened(0.0).finite
+    direction = np.random.default_rng(0).normal(size=len(folded.gradient))
+    assert folded.room(direction) == np.inf
+    h = 1e-5 * softness / np.abs(direction).max() * 1e-3
+    slope = (folded.moved(h * direction).value - folded.moved(-h * direction).value) / (2 * h)
+    assert folded.gradient @ direction == pytest.approx(slope, rel=1e-4)
+    D, size = folded.jacobian, np.abs(folded._p) ** 2 + np.abs(folded._q) ** 2
+    told = (size / (0.5 * (D + np.hypot(D, softness))) - 1.0).sum()
+    assert folded.value == pytest.approx(told, rel=1e-8)
+
+
 def test_room_ends_where_a_face_has_no_area(place) -> None:
     _, here = place
     for seed in range(5):
@@ -107,4 +126,4 @@ def test_the_first_hessian_is_that_of_the_frozen_energy(inner: int) -> None:
     weights = 4.0 / np.abs(faces.P @ here.z) ** 2
     product = (faces.Q.conj().T @ (weights * (faces.Q @ full)))[free].view(float)
     solved = here.held_hessian(surface.V[free], "auto").solve(product)
-    np.testing.assert_allclose(solved, x, atol=1e-6)
+    np.testing.assert_allclose(solved, x, atol=1e-4)  # SHIFT times the condition

@@ -50,8 +50,8 @@ def free_map(
     laplacian : {"auto", "cotan", "intrinsic-delaunay"}
         As in `disk_map`.
     repair : {"auto", "always", "never"}
-        Where triangles inside came out folded, patches around them are moved; "auto" pays at most half a degree of mean
-        angle error for it.
+        Where triangles came out folded, vertices around them are moved, those of the boundary if nothing else helps;
+        "auto" pays at most half a degree of mean angle error for it.
     backend : {"auto", "cholmod", "superlu", "multigrid"}
         As in `disk_map`.
     callback : callable, optional

@@ -33,7 +33,7 @@ def mapped_free(factorized: FactorizedDisk, options: FreeOptions, progress: Prog
             )
     problem = factorized.problem(progress)
     z = solve_free(surface, problem, options, progress)
-    z, cost = unfolded(surface, loop, z, options.repair, progress)
+    z, cost = unfolded(surface, loop, z, options.repair, factorized.asked, progress)
     status = Status.DIRECT
     if options.refine:
         z, status = refined(surface, loop, z, factorized.asked, progress)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import SolverError
 from ..mesh.surface import Surface
 from ..operators.conformal_barrier import BarrierPlace, FaceDerivatives
 from ..operators.distortion import distortion_of
@@ -49,7 +50,10 @@ def refined(
         return z, Status.STALLED
     progress("refinement", 0.0)
     best = _Best(surface, z, signs > 0)
-    inverse = start.held_hessian(surface.V[vertices], backend).solve
+    try:
+        inverse = start.held_hessian(surface.V[vertices], backend).solve
+    except SolverError:  # slivers
+        return z, Status.STALLED
     _, status = lbfgs(
         start,
         inverse,

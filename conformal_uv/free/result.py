@@ -27,7 +27,7 @@ class FreeMap:
     ----------
     uv : (n, 2) float64
         Position of every vertex, in the units of V. The first boundary vertex is at 0, the first boundary edge along
-        the first axis (a repair leaves them there, a refinement the vertex alone).
+        the first axis, unless a repair or a refinement moved them.
     boundary : (nb,) int64
         The boundary loop, in the direction of the faces.
     flipped : (k,) int64

@@ -91,7 +91,9 @@ def _measured(
     factorized: FactorizedDisk, solution: RectangleSolution, options: RectangleOptions, progress: Progress
 ) -> RectangleMap:
     surface, laplacian = factorized.surface, factorized.laplacian(progress)
-    z, cost = unfolded(surface, _placed(laplacian, solution), solution.sides, options.repair, progress)
+    z, cost = unfolded(
+        surface, _placed(laplacian, solution), solution.sides, options.repair, factorized.asked, progress
+    )
     flipped = flipped_faces(z, surface.corners)
     return RectangleMap(
         uv=z.view(np.float64).reshape(-1, 2),

@@ -1,4 +1,4 @@
-"""Folds in a rectangle mended: patches around them, then sides in order and weights that are positive.
+"""Folds in a rectangle mended: vertices around them moved, then sides in order and weights that are positive.
 
 Sides may run back where the Laplacian's weights along them are negative. With the sides in order and positive weights
 the map is an embedding (Tutte 1963) but for faces that have all three vertices on one side: no map gives them area.
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..disk.embedding import DEAR
 from ..disk.repair import Repair, repair_cost, repaired
+from ..disk.untangling import untangled
 from ..mesh.surface import Surface
 from ..operators.mean_value import NeighbourMeans, surface_mean_value_matrix
 from ..operators.orientation_sign import flipped_faces
@@ -38,7 +39,7 @@ def squashed_faces(surface: Surface, sides: list[Ints]) -> Ints:
 
 
 def unfolded(
-    surface: Surface, z: Complex, sides: list[Ints], choice: Choice, progress: Progress
+    surface: Surface, z: Complex, sides: list[Ints], choice: Choice, backend: str, progress: Progress
 ) -> tuple[Complex, Repair | None]:
     """Positions with fewer folds and what that cost; z itself where there are none, or none that may be mended.
 
@@ -56,8 +57,10 @@ def unfolded(
     inside[np.concatenate(sides)] = False
     best, found = z, None
     fewest = len(folds)
-    for ordered in _ways(surface, z, sides, inside, progress):
-        mended = repaired(surface.corners, ordered, inside, folds_of, progress)
+    for tried in _ways(surface, z, sides, inside, progress):
+        mended = repaired(surface.corners, tried, inside, folds_of, progress)
+        if len(folds_of(mended)):
+            mended = untangled(surface, tried, inside, folds_of, backend, progress)
         left = folds_of(mended)
         if len(left) >= fewest:
             continue
