@@ -212,6 +212,17 @@ def test_refinement_helps_where_angles_are_bad() -> None:
     assert refined.distortion.angle_mean < 0.97 * m.distortion.angle_mean
 
 
+def test_given_angles_outlive_a_repair() -> None:
+    V, F = scattered_disk(150, 50, 2)
+    V[:, 2] = 3 * np.sin(3 * V[:, 0] + 5 * V[:, 1])
+    loop = cuv.DiskMapper(V, F).boundary
+    angles = np.full(len(loop), 2 * np.pi / len(loop))
+    raw = cuv.free_map(V, F, boundary_angles=angles, repair="never")
+    m = cuv.free_map(V, F, boundary_angles=angles, repair="always")
+    assert 0 <= len(m.flipped) < len(raw.flipped)
+    np.testing.assert_array_equal(m.uv[loop], raw.uv[loop])
+
+
 @pytest.mark.parametrize(("degrees", "crosses"), [(200.0, False), (350.0, False), (400.0, True)])
 def test_a_boundary_that_crosses_itself_is_told(degrees: float, crosses: bool) -> None:
     V, F, flat = sector_fan(degrees)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..errors import OptionError
 from ..operators.factorized_disk import FactorizedDisk
 from ..optimize import Status
@@ -33,7 +35,9 @@ def mapped_free(factorized: FactorizedDisk, options: FreeOptions, progress: Prog
             )
     problem = factorized.problem(progress)
     z = solve_free(surface, problem, options, progress)
-    z, cost = unfolded(surface, loop, z, options.repair, factorized.asked, progress)
+    inside, held = np.ones(surface.n, dtype=bool), options.boundary_angles is not None
+    inside[loop] = False
+    z, cost = unfolded(surface, inside, z, held, options.repair, factorized.asked, progress)
     status = Status.DIRECT
     if options.refine:
         z, status = refined(surface, loop, z, factorized.asked, progress)

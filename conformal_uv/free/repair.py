@@ -21,18 +21,24 @@ Complex = NDArray[np.complex128]
 
 
 def unfolded(
-    surface: Surface, loop: NDArray[np.int64], z: Complex, choice: Choice, backend: str, progress: Progress
+    surface: Surface,
+    inside: NDArray[np.bool_],
+    z: Complex,
+    held: bool,
+    choice: Choice,
+    backend: str,
+    progress: Progress,
 ) -> tuple[Complex, Repair | None]:
     """Positions with fewer folds and what that cost; z itself where there are none, or none that may be mended.
 
     Patches inside at means of their neighbours first; where that is not enough, vertices near folds, those of the
-    boundary too, where the energy of angles is least. `auto` pays half a degree of mean angle error.
+    boundary too if it is not held, where the energy of angles is least. `auto` pays half a degree of mean angle error.
     """
     folds = flipped_faces(z, surface.corners)
     if not len(folds) or choice is Choice.NEVER:
         return z, None
     best, found = z, None
-    for mended in _ways(surface, loop, z, backend, progress):
+    for mended in _ways(surface, inside, z, held, backend, progress):
         left = flipped_faces(mended, surface.corners)
         cost = repair_cost(surface, z, mended, folds, left)
         dear = choice is Choice.AUTO and cost.angle_mean_after > cost.angle_mean_before + DEAR
@@ -43,14 +49,15 @@ def unfolded(
     return best, found
 
 
-def _ways(surface: Surface, loop: NDArray[np.int64], z: Complex, backend: str, progress: Progress) -> Iterator[Complex]:
+def _ways(
+    surface: Surface, inside: NDArray[np.bool_], z: Complex, held: bool, backend: str, progress: Progress
+) -> Iterator[Complex]:
     def folds_of(moved: Complex) -> NDArray[np.int64]:
         return flipped_faces(moved, surface.corners)
 
-    inside = np.ones(surface.n, dtype=bool)
-    inside[loop] = False
     progress("repair", 0.0)
     mended = repaired(surface.corners, z, inside, folds_of, progress)
     yield mended
+    movable = inside if held else np.ones_like(inside)
     for start in (z, mended):
-        yield untangled(surface, start, np.ones(surface.n, dtype=bool), folds_of, backend, progress)
+        yield untangled(surface, start, movable, folds_of, backend, progress)
