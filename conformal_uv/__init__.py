@@ -1,4 +1,4 @@
-"""Conformal maps of triangle meshes onto the unit disk and the unit sphere.
+"""Conformal maps of triangle meshes onto the unit disk, the plane, rectangles and the unit sphere.
 
 Nothing is imported before a name is asked for, so that the command can answer Ctrl-C while numpy and scipy load.
 """
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         TopologyError,
         UnreferencedVertexError,
     )
+    from .free import FreeMap, free_map
     from .mesh import PolygonMesh, Surface
     from .mesh.triangulate import triangulate
     from .operators import (
@@ -54,7 +55,9 @@ if TYPE_CHECKING:
     )
     from .optimize import AugmentedLagrangianStep, NewtonStep
     from .progress import Callback
+    from .rectangle import RectangleMap, rectangle_map
     from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, flipped_polygons, unwrap_numbers
+    from .shape_mapper import ShapeMapper
     from .sphere import SphereMap, equirectangular, octahedral, sphere_map
 
 __all__ = [
@@ -71,6 +74,7 @@ __all__ = [
     "DistortionNumbers",
     "DuplicateFaceError",
     "FileFormatError",
+    "FreeMap",
     "MeshError",
     "MissingDependencyError",
     "Moebius",
@@ -81,8 +85,10 @@ __all__ = [
     "OrientationError",
     "Placement",
     "PolygonMesh",
+    "RectangleMap",
     "Remedy",
     "Repair",
+    "ShapeMapper",
     "SolverError",
     "SphereMap",
     "Surface",
@@ -100,10 +106,12 @@ __all__ = [
     "equirectangular",
     "face_areas",
     "flipped_polygons",
+    "free_map",
     "gradient",
     "mixed_voronoi_areas",
     "octahedral",
     "pack_together",
+    "rectangle_map",
     "sphere_map",
     "triangulate",
     "uniform_laplacian",
@@ -125,6 +133,7 @@ _HOME = {
     "DistortionNumbers": "report",
     "DuplicateFaceError": "errors",
     "FileFormatError": "errors",
+    "FreeMap": "free",
     "MeshError": "errors",
     "MissingDependencyError": "errors",
     "Moebius": "operators",
@@ -135,8 +144,10 @@ _HOME = {
     "OrientationError": "errors",
     "Placement": "charts",
     "PolygonMesh": "mesh",
+    "RectangleMap": "rectangle",
     "Remedy": "errors",
     "Repair": "disk.repair",
+    "ShapeMapper": "shape_mapper",
     "SolverError": "errors",
     "SphereMap": "sphere",
     "Surface": "mesh",
@@ -153,10 +164,12 @@ _HOME = {
     "equirectangular": "sphere",
     "face_areas": "operators",
     "flipped_polygons": "report",
+    "free_map": "free",
     "gradient": "operators",
     "mixed_voronoi_areas": "operators",
     "octahedral": "sphere",
     "pack_together": "charts",
+    "rectangle_map": "rectangle",
     "sphere_map": "sphere",
     "triangulate": "mesh.triangulate",
     "uniform_laplacian": "operators",

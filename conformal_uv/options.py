@@ -15,13 +15,15 @@ from typing import Any, Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import OptionError
+from .errors import OptionError, listed
 
 __all__ = [
     "Backend",
     "Choice",
     "Closed",
+    "CornerChoice",
     "DiskOptions",
+    "FreeOptions",
     "Holes",
     "Laplacian",
     "Method",
@@ -32,6 +34,7 @@ __all__ = [
     "PinMode",
     "Place",
     "PlaceOptions",
+    "RectangleOptions",
     "Repair",
     "Rotation",
     "SphereBoundary",
@@ -44,6 +47,9 @@ __all__ = [
 ]
 
 INFINITY = float("inf")
+MOST_SCALE = 50.0  # of a logarithm; the squares of such scale factors are far from what doubles hold
+FULL_TURN = 2.0 * np.pi
+TURN_ROUNDING = 1e-6
 C = TypeVar("C", bound="Choice")
 
 
@@ -173,6 +179,13 @@ class Place(Choice):
     @classmethod
     def _joint(cls) -> str:
         return ", "
+
+
+class CornerChoice(Choice):
+    """Which boundary vertices become the corners of a rectangle."""
+
+    TURNING = "turning"
+    AREA = "area"
 
 
 class SphereBoundary(Choice):
@@ -308,7 +321,7 @@ class DiskOptions(Limits):
             raise OptionError('The linear method does not optimise; it takes pins only with pin_mode="moebius".')
         self._check_limits()
         if self.pins is not None:
-            _set(self, pins=_three(self.pins))
+            _set(self, pins=_vertices("pins", self.pins, 3, "three"))
         if self.needs_pins and (self.center is not None or self.boundary_vertex is not None):
             raise OptionError("Three pins already fix the map; leave out center and boundary_vertex.")
         for name in ("center", "boundary_vertex"):
@@ -405,15 +418,94 @@ class SphereOptions(Limits):
             _set(self, landmarks=(a, b, c))
 
 
-def _three(pins: Sequence[int]) -> tuple[int, int, int]:
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FreeOptions:
+    """What the boundary of a flat surface is to be like; see `free_map`.
+
+    `boundary_scale` and `boundary_angles` (nb,) follow the boundary loop; how many there are to be is checked where the
+    surface is at hand.
+    """
+
+    boundary_scale: NDArray[np.float64] | None = None
+    boundary_angles: NDArray[np.float64] | None = None
+    refine: bool = False
+    repair: Repair = Repair.AUTO
+
+    def __post_init__(self) -> None:
+        _set(self, repair=Repair.of("repair", self.repair), refine=_flag("refine", self.refine))
+        for name in ("boundary_scale", "boundary_angles"):
+            if getattr(self, name) is not None:
+                _set(self, **{name: _real_numbers(name, getattr(self, name))})
+        scale, angles = self.boundary_scale, self.boundary_angles
+        if scale is not None and angles is not None:
+            raise OptionError("boundary_scale and boundary_angles determine each other; pass one of them.")
+        if self.refine and (scale is not None or angles is not None):
+            raise OptionError("refine moves the boundary; leave out boundary_scale and boundary_angles, or refine.")
+        if scale is not None and len(scale) and np.abs(scale).max() > MOST_SCALE:
+            raise OptionError(f"boundary_scale goes up to {np.abs(scale).max():g}; pass logarithms of scale factors.")
+        if angles is not None:
+            if abs(angles.sum() - FULL_TURN) > TURN_ROUNDING:
+                raise OptionError(f"boundary_angles sum to {angles.sum():.9g}; a closed boundary turns by 2 pi.")
+            _set(self, boundary_angles=angles + (FULL_TURN - angles.sum()) / len(angles))
+
+
+@dataclass(frozen=True, kw_only=True)
+class RectangleOptions:
+    """Which vertices become the corners of a rectangle; see `rectangle_map`.
+
+    Vertices are those of the mesh; `rectangle.corners.given_corners` checks them against a surface.
+    """
+
+    corners: tuple[int, int, int, int] | None = None
+    corner_choice: CornerChoice = CornerChoice.TURNING
+    repair: Repair = Repair.AUTO
+
+    def __post_init__(self) -> None:
+        _set(
+            self,
+            corner_choice=CornerChoice.of("corner_choice", self.corner_choice),
+            repair=Repair.of("repair", self.repair),
+        )
+        if self.corners is not None:
+            _set(self, corners=_vertices("corners", self.corners, 4, "four"))
+            if self.compares:
+                raise OptionError('corners are given, so corner_choice="area" chooses nothing; leave out one of them.')
+
+    @property
+    def compares(self) -> bool:
+        """Whether several maps are made, to take the best."""
+        return self.corner_choice is CornerChoice.AREA
+
+
+def _flag(name: str, value: object) -> bool:
+    if not isinstance(value, bool | np.bool_):
+        raise OptionError(f"{name} is {value!r}; pass True or False.")
+    return bool(value)
+
+
+def _real_numbers(name: str, values: object) -> NDArray[np.float64]:
+    """The values as a row of finite numbers of their own."""
     try:
-        values = list(pins)
+        given = np.asarray(values)
+        if given.dtype.kind not in "iuf" or given.ndim != 1:
+            raise TypeError(f"dtype {given.dtype}, shape {given.shape}")
+        numbers = given.astype(np.float64)
+    except (TypeError, ValueError) as error:
+        raise OptionError(f"{name} is no row of numbers ({error}); pass one for each boundary vertex.") from error
+    bad = np.flatnonzero(~np.isfinite(numbers))
+    if len(bad):
+        raise OptionError(f"{name} is NaN or infinite at places {listed(bad)}; pass finite numbers.", bad)
+    return numbers
+
+
+def _vertices(name: str, values: Sequence[int], count: int, word: str) -> tuple[int, ...]:
+    try:
+        found = list(values)
     except TypeError as error:
-        raise OptionError(f"pins is {pins!r}; pass three boundary vertices.") from error
-    if len(values) != 3:
-        raise OptionError(f"{len(values)} pins; pass three boundary vertices.")
-    a, b, c = (vertex_index("pins", value) for value in values)
-    return a, b, c
+        raise OptionError(f"{name} is {values!r}; pass {word} boundary vertices.") from error
+    if len(found) != count:
+        raise OptionError(f"{len(found)} {name}; pass {word} boundary vertices.")
+    return tuple(vertex_index(name, value) for value in found)
 
 
 def _set(options: Any, **values: Any) -> None:

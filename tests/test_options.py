@@ -34,6 +34,8 @@ def test_choices_are_their_names() -> None:
         (options.SplitOptions, cuv.unwrap, set()),
         (options.PlaceOptions, cuv.unwrap, set()),
         (options.SphereOptions, cuv.sphere_map, {"relative_tolerance"}),
+        (options.FreeOptions, cuv.free_map, set()),
+        (options.RectangleOptions, cuv.rectangle_map, set()),
     ],
 )
 def test_every_field_is_a_parameter_of_its_door_with_its_default(kind, door, beside) -> None:

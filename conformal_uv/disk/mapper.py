@@ -8,11 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..linear.backends import choose_backend
-from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.distortion import distortion_of
-from ..operators.edge_laplacian import edge_laplacian
+from ..operators.factorized_disk import FactorizedDisk
 from ..operators.orientation_sign import flipped_faces
 from ..optimize.choice import best_map
 from ..options import DiskOptions, Laplacian, Method, Objective, Repair
@@ -75,14 +73,19 @@ class DiskMapper:
         backend: str = "auto",
         callback: Callback | None = None,
     ) -> None:
-        self._laplacian = Laplacian.of("laplacian", laplacian)
-        self.backend = choose_backend(backend)
-        self._backend = backend
-        Progress(callback)("checks", 0.0)
-        self.surface = Surface.from_arrays(V, F)
-        self.boundary = self.surface.require_disk()
-        self.surface.require_extent()
-        self._factorized: dict[Laplacian, tuple[DirichletProblem, CentredMeasure]] = {}
+        self._take(FactorizedDisk(V, F, laplacian=laplacian, backend=backend, callback=callback))
+
+    @classmethod
+    def of(cls, factorized: FactorizedDisk) -> DiskMapper:
+        """A mapper of a surface that may be factorized already, and shares that with other shapes."""
+        mapper = cls.__new__(cls)
+        mapper._take(factorized)
+        return mapper
+
+    def _take(self, factorized: FactorizedDisk) -> None:
+        self._factorized = factorized
+        self.surface, self.boundary, self.backend = factorized.surface, factorized.boundary, factorized.backend
+        self._measured: dict[Laplacian, CentredMeasure] = {}
         self._solved: tuple[tuple[object, ...], list[Solution]] | None = None
 
     def map(self, *, callback: Callback | None = None, **options: Any) -> DiskMap:
@@ -111,7 +114,7 @@ class DiskMapper:
 
     def _solve(self, options: DiskOptions, progress: Progress) -> list[Solution]:
         if options.method is Method.AUGMENTED_LAGRANGIAN:
-            return [solve_augmented_lagrangian(self.surface, self.boundary, options, self._backend, progress)]
+            return [solve_augmented_lagrangian(self.surface, self.boundary, options, self._factorized.asked, progress)]
         problem, measure = self._problem(options, progress)
         if options.method is Method.NEWTON:
             return [solve_newton(self.surface, problem, measure, options, progress)]
@@ -157,21 +160,14 @@ class DiskMapper:
 
         The Dirichlet objective is the report's problem, stated with the mesh's own cotangents; "auto" keeps them.
         """
-        kind = self._laplacian
+        kind = self._factorized.kind
         if kind is Laplacian.AUTO and options.objective is Objective.DIRICHLET and not len(self.surface.degenerate):
             kind = Laplacian.COTAN
-        if kind not in self._factorized:
-            surface = self.surface
-            progress("assembly", 0.0)
-            laplacian = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, kind)
-            problem = DirichletProblem(
-                laplacian, self.boundary, surface.n, points=surface.V, backend=self._backend, progress=progress
-            )
+        problem = self._factorized.problem(progress, kind)
+        if kind not in self._measured:
             progress("linear", 0.0)
-            self._factorized[kind] = problem, centred_measure(surface, problem)
-        else:
-            self._factorized[kind][0].report_to(progress)
-        return self._factorized[kind]
+            self._measured[kind] = centred_measure(self.surface, problem)
+        return problem, self._measured[kind]
 
     def _held(self, options: DiskOptions) -> NDArray[np.int64]:
         """The boundary vertices whose places the options name."""

@@ -24,7 +24,7 @@ class Status(StrEnum):
     MAX_ITERATIONS
         `max_iterations` were made.
     ANGLES
-        Of "auto": Newton's method made the angle error larger, so the linear map was kept.
+        Newton's method, or a refinement, made the angle error larger, so the map before it was kept.
     NO_GAIN
         Of "auto": Newton's method promised too little to be begun, so the linear map was kept.
     """
