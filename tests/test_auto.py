@@ -107,7 +107,8 @@ def test_least_shear_is_a_minimum_in_order() -> None:
     )
     start = mapper.map(method="linear").uv[mapper.boundary] @ [1.0, 1.0j]
     theta = np.unwrap(np.angle(start))
-    by_flux, by_area, _ = least_shear(mapper.surface, problem, theta)
+    (by_flux, steps), (by_area, _), _ = least_shear(mapper.surface, problem, theta)
+    assert (np.diff([step.energy for step in steps]) <= 0.0).all() and steps[-1].step_length == 0.0
     np.testing.assert_allclose(by_flux, by_area, atol=1e-5)  # the same energy by two ways
 
     def ratio(angles: NDArray[np.float64]) -> float:

@@ -38,7 +38,10 @@ def test_nasty_mesh_is_embedded_but_for_what_doubles_can_not_hold(name: str, met
     m = cuv.disk_map(*nasty_meshes.EMBEDDED[name], method=method)
     assert np.isfinite(m.uv).all() and np.isfinite(m.conformal_energy)
     assert np.abs(np.hypot(*m.uv[m.boundary].T) - 1).max() <= 1e-12
-    assert set(m.flipped) <= set(m.lost_to_double)
+    if len(m.flipped):  # an embedding would cost more angles than this repair pays
+        whole = cuv.disk_map(*nasty_meshes.EMBEDDED[name], method=method, repair="always")
+        assert len(whole.flipped) == 0
+        assert whole.distortion.angle_mean > m.repair.angle_mean_before + 0.5
     if not name.startswith(("ribbon", "serpentine", "x stretched")):
         assert len(m.flipped) == 0
 
@@ -92,8 +95,8 @@ def test_badly_triangulated_scan_with_the_intrinsic_laplacian(load_scan) -> None
         return cuv.distortion(V, F, m.uv).angle_mean
 
     plain = cuv.disk_map(V, bad, laplacian="cotan", repair="never")
-    intrinsic = cuv.disk_map(V, bad, laplacian="intrinsic-delaunay", repair="never")
     mended = cuv.disk_map(V, bad)
+    intrinsic = cuv.disk_map(V, bad, method=mended.method, laplacian="intrinsic-delaunay", repair="never")
     assert mended.laplacian == "intrinsic-delaunay"
     assert error(intrinsic) <= 1.05 * original
     assert error(mended) <= 0.5 * error(plain)

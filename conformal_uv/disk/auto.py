@@ -30,6 +30,7 @@ LARGE = 10_000  # vertices, from where on Newton's method is watched
 FEW = 32  # boundary vertices: a step costs as few solutions, and the preconditioner tells nothing
 PROMISE = 0.003  # degrees of mean angle error that the fall of the energy would give by its square
 WORTH = 3e-4  # part of the energy
+GOOD = 0.5  # degrees, of which nobody asks for less
 TINY = float(np.finfo(np.float64).tiny)
 
 
@@ -56,9 +57,11 @@ def solve_auto(
 
 
 def _with_relative(surface: Surface, problem: DirichletProblem, found: list[Solution]) -> list[Solution]:
-    if not few_enough(problem):
+    """With the least shear of all boundary angles, where there are few and the angles could be better."""
+    last = found[-1]
+    if not few_enough(problem) or _angle_mean(surface, last.z) < GOOD:
         return found
-    return [*found, *(one for start in found for one in solve_relative(surface, problem, start))]
+    return [*found, *solve_relative(surface, problem, last)]
 
 
 class _Watch:
@@ -66,11 +69,11 @@ class _Watch:
 
     def __init__(self, surface: Surface, energy: BoundaryEnergy) -> None:
         self._surface = surface
-        self._least = _angle_mean(surface, energy)
+        self._least = _angle_mean(surface, energy.positions())
 
     def __call__(self, energy: BoundaryEnergy) -> bool:
         """Whether the angles at these boundary angles are no worse than before."""
-        mean = _angle_mean(self._surface, energy)
+        mean = _angle_mean(self._surface, energy.positions())
         if mean > self._least:
             return False
         self._least = mean
@@ -85,9 +88,8 @@ def _promising(surface: Surface, energy: BoundaryEnergy, measure: CentredMeasure
     tangent = Tangent(gauge, energy.theta, np.zeros(len(energy.theta), dtype=bool))
     gradient = tangent.project(energy.gradient)
     part = 0.5 * float(gradient @ tangent.precondition(gradient)) / max(energy.value, TINY)
-    return part > WORTH and part * _angle_mean(surface, energy) > PROMISE
+    return part > WORTH and part * _angle_mean(surface, energy.positions()) > PROMISE
 
 
-def _angle_mean(surface: Surface, energy: BoundaryEnergy) -> float:
-    z: NDArray[np.complex128] = energy.positions()
+def _angle_mean(surface: Surface, z: NDArray[np.complex128]) -> float:
     return distortion_of(surface.geometry, surface.corners, z.view(np.float64).reshape(-1, 2)).angle_mean

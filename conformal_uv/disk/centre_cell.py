@@ -31,7 +31,7 @@ def release_centre(
     found: NewtonResult,
     options: DiskOptions,
     progress: Progress,
-) -> tuple[NewtonResult, bool]:
+) -> NewtonResult:
     """Minimise without holding the centre, where that is worth while and keeps it in its cell.
 
     Parameters
@@ -41,18 +41,18 @@ def release_centre(
 
     Returns
     -------
-    The new minimum and True, or `found` and False.
+    The new minimum, or `found`.
     """
     if measure.centre is None:
-        return found, False
+        return found
     reach = _star_radius(surface, problem, measure.centre, found.energy)
     worth = WORTH_WHILE * found.energy.value
     slope = found.energy.moebius_moves.T @ found.energy.gradient
     if 0.5 * float(np.linalg.norm(slope)) * reach < worth:  # a step within the star gains less, whatever the Hessian
-        return found, False
+        return found
     predicted, gain = _predicted_shift(found.energy, slope)
     if not predicted < reach or gain < worth:
-        return found, False
+        return found
     free = minimise_boundary_energy(
         problem,
         found.energy.theta,
@@ -64,8 +64,8 @@ def release_centre(
     )
     shift = abs(complex(measure.vertex_measure @ free.energy.z))
     if not (free.converged and shift < reach):
-        return found, False
-    return free._replace(history=found.history[:-1] + free.history), True
+        return found
+    return free._replace(history=found.history[:-1] + free.history)
 
 
 def _star_radius(surface: Surface, problem: DirichletProblem, centre: int, energy: BoundaryEnergy) -> float:

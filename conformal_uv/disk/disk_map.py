@@ -54,7 +54,8 @@ def disk_map(
         How pins are reached: by a Moebius map of the solution, or as constraints of the optimisation as in the
         report (always so for the augmented Lagrangian), which can fold a map whose pins sit badly.
     center : int, optional
-        Interior vertex to be sent to 0; by default the peak of the torsion function. A vertex that only folded
+        Interior vertex to be sent to 0; by default it is the middle of the surface, the peak of its torsion function,
+        wherever between vertices that is, and `DiskMap.center` is None. A vertex that only folded
         triangles would allow in the middle comes as near as the repair leaves it, and `DiskMap.center` is None.
     boundary_vertex : int, optional
         Boundary vertex to be sent to 1; by default the first of the boundary loop.

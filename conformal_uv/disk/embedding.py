@@ -87,9 +87,10 @@ def unfolded(
     best = start = _Tried(z, folds, _angle_mean(surface, z))
     most = start.angle_mean + DEAR if repair is Repair.AUTO else np.inf
     crowded = len(folds) > MOST_MENDED * surface.m  # there an embedding may well have less angle error
+    folded = len(flipped_faces(z, surface.corners))
     progress("repair", 0.0)
     for tried in _ways(surface, problem, z, folds, fixed, progress):
-        if tried.angle_mean <= most and tried.rank < best.rank:
+        if tried.angle_mean <= most and tried.rank < best.rank and len(tried.folds) <= folded:
             best = tried
         if not len(best.folds) and best.angle_mean <= start.angle_mean + CHEAP and not crowded:
             break

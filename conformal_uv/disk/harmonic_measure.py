@@ -7,6 +7,7 @@ boundary its angle advances by the flux of G: 2 pi times the harmonic measure se
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ __all__ = ["CentredMeasure", "angles_of_measure", "centred_measure"]
 MOST_OF_ONE = 0.49  # of the harmonic measure
 NOTHING = 1e-12  # of a neighbour's measure: what is left of weights that cancel
 ALIKE = 1e-9  # part of the torsion function's peak
+NEAR_PEAK = 0.97  # of it, from where on a vertex counts as about the middle; on a flat disk, a thirtieth of the area
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,9 +36,11 @@ class CentredMeasure:
     Attributes
     ----------
     centre : int or None
-        The interior vertex that comes to 0; None where there is no such vertex.
+        The interior vertex that it is seen from, None where there is no such vertex.
     vertex_measure : (nb,) float64
-        Of each boundary vertex, sums to 1; its mean of the boundary's positions is held at 0.
+        The mean of the measures seen from the vertices about it, where the torsion function is near its peak; it sums
+        to 1, and its mean of the boundary's positions is held at 0. So no vertex is snapped to, and a symmetric surface
+        gets a symmetric map.
     theta : (nb,) float64
         Boundary angles, increasing from 0.
     """
@@ -55,24 +59,24 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
     """
     loop = problem.boundary
     lengths = np.linalg.norm(surface.V[np.roll(loop, -1)] - surface.V[loop], axis=1)
-    centre, measure = None, None
+    peak, measure, middle = None, None, None
     if len(problem.interior):
-        centre = torsion_centre(surface.V, surface.corners, surface.geometry, problem)
-        measure = problem.harmonic_measure(centre)
+        peak = torsion_peak(surface.V, surface.corners, surface.geometry, problem)
+        measure, middle = peak.measures(problem)
         theta = angles_of_measure(measure, lengths)
         if (np.diff(theta, append=2.0 * np.pi) > 0.0).all():
-            return _balanced(CentredMeasure(centre, measure, theta))
+            return _balanced(CentredMeasure(peak.vertex, middle, theta))
     elif surface.n == 3:
         return CentredMeasure(None, np.full(3, 1.0 / 3.0), 2.0 * np.pi / 3.0 * np.arange(3.0))
     V, corners = split_edges(surface.V, surface.corners, surface.edges, chord_edges(surface, loop))
     edges, geometry = half_edges(corners, len(V)), triangle_geometry(V, corners)
     laplacian = edge_laplacian(corners, edges, geometry, len(V))
     refined = DirichletProblem(laplacian, loop, len(V), points=V, backend=problem.backend)
-    pole = centre if centre is not None else torsion_centre(V, corners, geometry, refined)
-    fine = refined.harmonic_measure(pole)
-    if measure is None or (measure < 0.0).any():
-        measure = fine
-    return _balanced(CentredMeasure(centre, measure, angles_of_measure(fine, lengths)))
+    seen = peak if peak is not None else torsion_peak(V, corners, geometry, refined)
+    fine, fine_middle = seen.measures(refined)
+    if measure is None or middle is None or (measure < 0.0).any() or (middle < 0.0).any():
+        middle = fine_middle
+    return _balanced(CentredMeasure(None if peak is None else peak.vertex, middle, angles_of_measure(fine, lengths)))
 
 
 def _balanced(found: CentredMeasure) -> CentredMeasure:
@@ -86,15 +90,39 @@ def _balanced(found: CentredMeasure) -> CentredMeasure:
     return CentredMeasure(None, arcs + np.roll(arcs, 1), found.theta)
 
 
-def torsion_centre(
-    V: NDArray[np.float64], corners: NDArray[np.int32], geometry: TriangleGeometry, problem: DirichletProblem
-) -> int:
-    """The interior vertex where the torsion function (-laplacian t = 1, t = 0 on the boundary) is largest.
+class TorsionPeak(NamedTuple):
+    """Where the torsion function (-laplacian t = 1, t = 0 on the boundary) is largest.
 
-    Among vertices where it is so but for rounding, the one that `distinguished` tells.
+    `vertex` has the largest value, of some that are alike but for rounding the one that `distinguished` tells;
+    `around` (k,) are the vertices with nearly as much, and `weights` (k,) of sum 1 how much of the surface each stands
+    for and how near it comes.
     """
-    torsion = problem.solve(lumped_areas(geometry, corners, len(V))[problem.interior])
-    return distinguished(V, corners, problem.interior[torsion >= torsion.max() - ALIKE * np.abs(torsion).max()])
+
+    vertex: int
+    around: NDArray[np.int64]
+    weights: NDArray[np.float64]
+
+    def measures(self, problem: DirichletProblem) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Harmonic measures (nb,) seen from the vertex, and in the mean from those around it."""
+        measure = problem.harmonic_measure(self.vertex)
+        if len(self.around) == 1:
+            return measure, measure
+        return measure, problem.mean_measure(self.around, self.weights)
+
+
+def torsion_peak(
+    V: NDArray[np.float64], corners: NDArray[np.int32], geometry: TriangleGeometry, problem: DirichletProblem
+) -> TorsionPeak:
+    """From the surface and the factorized Laplacian."""
+    areas = lumped_areas(geometry, corners, len(V))[problem.interior]
+    torsion = problem.solve(areas)
+    most = float(torsion.max())
+    vertex = distinguished(V, corners, problem.interior[torsion >= most - ALIKE * np.abs(torsion).max()])
+    weights = areas * np.maximum(torsion - NEAR_PEAK * most, 0.0)
+    near = np.flatnonzero(weights)
+    if not len(near) or not most > 0.0:
+        return TorsionPeak(vertex, np.array([vertex]), np.ones(1))
+    return TorsionPeak(vertex, problem.interior[near], weights[near] / weights[near].sum())
 
 
 def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:

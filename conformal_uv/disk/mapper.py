@@ -186,8 +186,5 @@ class DiskMapper:
         if options.pins is not None:
             apart = with_distinct_boundary(solution.z, self.boundary, self.boundary[:1])  # pins that crowd, too
             return *place_pins(solution.problem, corners, apart, options.pins), None
-        center = options.center
-        if center is None and solution.center is not None and abs(solution.z[solution.center]) < 1.0:
-            center = solution.center  # where crowding has not swept it onto the circle
         first = int(self.boundary[0]) if options.boundary_vertex is None else options.boundary_vertex
-        return *place_center(solution.problem, corners, solution.z, center, first), center
+        return *place_center(solution.problem, corners, solution.z, options.center, first), options.center

@@ -18,6 +18,7 @@ from scipy.optimize import minimize
 from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.wirtinger import planar_sides, unfolded_sides, wirtinger
+from ..optimize import NewtonStep
 
 __all__ = ["few_enough", "least_shear"]
 
@@ -28,6 +29,8 @@ FEW = 8  # boundary vertices,
 FEW_OF_FEW = 32  # or so many on a surface of less than
 SMALL = 2_000  # vertices
 ROUNDS = 4  # of weights
+TOLERANCE = 1e-10  # of the gradient of the ratio
+LEAST_AREA = 1e-12  # of the image, with the forms scaled to 1
 
 
 def few_enough(problem: DirichletProblem) -> bool:
@@ -36,16 +39,17 @@ def few_enough(problem: DirichletProblem) -> bool:
     return 3 <= count <= (FEW_OF_FEW if problem.n < SMALL else FEW)
 
 
-def least_shear(surface: Surface, problem: DirichletProblem, theta: Real) -> list[Real]:
-    """Boundary angles (nb,) of the least shear near those given, by the three measures.
+def least_shear(surface: Surface, problem: DirichletProblem, theta: Real) -> list[tuple[Real, tuple[NewtonStep, ...]]]:
+    """Boundary angles (nb,) of the least shear near those given, by the three measures, and the steps to them.
 
     Faces alike: iteratively reweighted least squares (Lawson 1961).
     """
     slopes, flux, areas = _slopes(surface, problem)
     found, weights = [_least_ratio(flux, _area_form(len(theta)), theta)], areas
     for _ in range(ROUNDS):
-        theta = _least_ratio((slopes.T * weights) @ slopes.conj(), (slopes.T.conj() * weights) @ slopes, theta)
-        found.append(theta)
+        above, below = (slopes.T * weights) @ slopes.conj(), (slopes.T.conj() * weights) @ slopes
+        found.append(_least_ratio(above, below, theta))
+        theta = found[-1][0]
         z = np.exp(1j * theta)
         size = np.abs(slopes @ z) ** 2
         weights = 1.0 / np.maximum(size, 1e-12 * size.max(initial=0.0) + np.finfo(np.float64).tiny)
@@ -77,26 +81,42 @@ def _area_form(count: int) -> Complex:
     return np.asarray((ahead - ahead.T) / 4j)
 
 
-def _least_ratio(above: Complex | Real, below: Complex, theta: Real) -> Real:
+def _least_ratio(above: Complex | Real, below: Complex, theta: Real) -> tuple[Real, tuple[NewtonStep, ...]]:
     """Angles, near those given and in their order, of the least ``z* above z / z* below z``, z = exp(i theta).
 
-    The gaps between neighbours are the variables, as exponentials, so that their order stays.
+    The gaps between neighbours are the variables, as exponentials, so that their order stays. With a row for each
+    iterate, the ratio in the energy's place.
     """
+    sizes = float(np.abs(above).max()), float(np.abs(below).max())
+    if not (0.0 < sizes[0] < np.inf and 0.0 < sizes[1] < np.inf):  # lost to overflow, on needles
+        return theta, ()
+    above, below = above / sizes[0], below / sizes[1]
 
     def ratio(logs: Real) -> tuple[float, Real]:
         gaps = _gaps(logs)
         z = np.exp(1j * _angles(gaps))
         pulls = above @ z, below @ z
         high, low = (float(np.real(np.vdot(z, pull))) for pull in pulls)
-        if not low > 0.0:
+        if not low > LEAST_AREA:
             return np.inf, np.zeros_like(gaps)
         one, other = (2.0 * np.imag(np.conj(z) * pull) for pull in pulls)
-        along = one / low - high / low**2 * other
+        along = (one - high / low * other) / low
         beyond = along.sum() - np.cumsum(along)  # of the vertices that a gap moves
         return high / low, gaps * (beyond - float(beyond @ gaps) / (2.0 * np.pi))
 
-    gaps = np.maximum(np.diff(theta, append=theta[0] + 2.0 * np.pi), 1e-12)
-    return _angles(_gaps(minimize(ratio, np.log(gaps), jac=True, method="BFGS", options={"gtol": 1e-9}).x))
+    start = np.log(np.maximum(np.diff(theta, append=theta[0] + 2.0 * np.pi), 1e-12))
+    value, slope = ratio(start)
+    if not np.isfinite(value):
+        return theta, ()
+    rows = [NewtonStep(value, float(np.linalg.norm(slope)), 0, 1.0)]
+
+    def keep(logs: Real) -> None:
+        value, slope = ratio(logs)
+        rows.append(NewtonStep(value, float(np.linalg.norm(slope)), 0, 1.0))
+
+    found = minimize(ratio, start, jac=True, method="BFGS", options={"gtol": TOLERANCE}, callback=keep)
+    rows[-1] = rows[-1]._replace(step_length=0.0)
+    return _angles(_gaps(found.x)), tuple(rows)
 
 
 def _gaps(logs: Real) -> Real:

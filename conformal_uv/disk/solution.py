@@ -33,12 +33,11 @@ Complex = NDArray[np.complex128]
 class Solution(NamedTuple):
     """Positions z (n,) in the unit disk, before they are placed.
 
-    `center` is the vertex that lies at 0, None where none was put there; `problem` is what was solved, None for the
+    `problem` is what was solved, None for the
     augmented Lagrangian; `status` says why `method` stopped.
     """
 
     z: Complex
-    center: int | None
     history: tuple[NewtonStep, ...] | tuple[AugmentedLagrangianStep, ...]
     converged: bool
     problem: DirichletProblem | None
@@ -58,7 +57,7 @@ def solve_linear(problem: DirichletProblem, measure: CentredMeasure) -> LinearSt
     """Angles from the harmonic measure, then the harmonic extension."""
     theta = CentreGauge(measure.vertex_measure, measure.theta).restore(measure.theta)
     energy = BoundaryEnergy(problem, theta, minus_area=True)
-    solution = Solution(energy.positions(), measure.centre, (), True, problem, Method.LINEAR, Status.DIRECT)
+    solution = Solution(energy.positions(), (), True, problem, Method.LINEAR, Status.DIRECT)
     return LinearStart(solution, energy)
 
 
@@ -90,15 +89,13 @@ def solve_newton(
         progress=progress,
         watch=watch,
     )
-    released = False
     if pins is None and options.objective == "conformal" and found.converged:
-        found, released = release_centre(surface, problem, measure, found, options, progress)
+        found = release_centre(surface, problem, measure, found, options, progress)
     z = found.energy.positions()
     if pins is not None:
         z[list(pins)] = CUBE_ROOTS
-    center = None if released or pins is not None else measure.centre
     done = found.converged or found.status is Status.ANGLES
-    return Solution(z, center, found.history, done, problem, Method.NEWTON, found.status)
+    return Solution(z, found.history, done, problem, Method.NEWTON, found.status)
 
 
 def solve_relative(surface: Surface, problem: DirichletProblem, start: Solution) -> list[Solution]:
@@ -106,15 +103,14 @@ def solve_relative(surface: Surface, problem: DirichletProblem, start: Solution)
     return [
         Solution(
             problem.extend(np.exp(1j * theta)),
-            None,
-            (),
+            steps,
             True,
             problem,
             Method.NEWTON,
             Status.CONVERGED,
             relative=True,
         )
-        for theta in least_shear(surface, problem, _angles(start.z[problem.boundary]))
+        for theta, steps in least_shear(surface, problem, _angles(start.z[problem.boundary]))
     ]
 
 
@@ -147,7 +143,7 @@ def solve_augmented_lagrangian(
     z = x[:n] + 1j * x[n:]
     z[loop] /= np.abs(z[loop])  # the constraints hold to 1e-8, the circle is to be met
     status = Status.CONVERGED if converged else Status.MAX_ITERATIONS
-    return Solution(z, None, history, converged, None, Method.AUGMENTED_LAGRANGIAN, status)
+    return Solution(z, history, converged, None, Method.AUGMENTED_LAGRANGIAN, status)
 
 
 def _angles(zb: Complex) -> NDArray[np.float64]:

@@ -175,8 +175,13 @@ class DirichletProblem:
 
         The flux of the Green's function with its pole at the vertex.
         """
+        return self.mean_measure(np.array([vertex]), np.ones(1))
+
+    def mean_measure(self, vertices: NDArray[np.int64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The weighted sum of the harmonic measures seen from some interior vertices, (nb,): what boundary values have
+        to be multiplied by to give the weighted sum of their extension there."""
         pole = np.zeros(len(self.interior))
-        pole[np.searchsorted(self.interior, vertex)] = 1.0
+        pole[np.searchsorted(self.interior, vertices)] = weights
         return -(self.Lbi @ self.solve(pole))
 
 
