@@ -37,11 +37,14 @@ __all__ = [
     "RectangleOptions",
     "Repair",
     "Rotation",
+    "Shape",
+    "ShapeOptions",
     "SphereBoundary",
     "SphereLayout",
     "SphereMethod",
     "SphereOptions",
     "SplitOptions",
+    "Upright",
     "real_number",
     "vertex_index",
 ]
@@ -186,6 +189,30 @@ class CornerChoice(Choice):
 
     TURNING = "turning"
     AREA = "area"
+
+
+class Shape(Choice):
+    """What a chart becomes."""
+
+    DISK = "disk"
+    FREE = "free"
+    RECTANGLE = "rectangle"
+
+    @classmethod
+    def _joint(cls) -> str:
+        return ", "
+
+
+class Upright(Choice):
+    """The surface's axis that points up in the texture."""
+
+    Z = "z"
+    Y = "y"
+    NONE = "none"
+
+    @classmethod
+    def _joint(cls) -> str:
+        return ", "
 
 
 class SphereBoundary(Choice):
@@ -475,6 +502,47 @@ class RectangleOptions:
     def compares(self) -> bool:
         """Whether several maps are made, to take the best."""
         return self.corner_choice is CornerChoice.AREA
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShapeOptions:
+    """What charts become and how they are turned; see `unwrap`.
+
+    `shape` is that of all charts, or one for each.
+    """
+
+    shape: Shape | tuple[Shape, ...] = Shape.DISK
+    upright: Upright = Upright.Z
+    refine: bool = False
+    corner_choice: CornerChoice = CornerChoice.TURNING
+
+    def __post_init__(self) -> None:
+        shape: Any = self.shape
+        if isinstance(shape, str) or not isinstance(shape, Sequence):
+            shape = Shape.of("shape", shape)
+        else:
+            shape = tuple(Shape.of("shape", one) for one in shape)
+        _set(
+            self,
+            shape=shape,
+            upright=Upright.of("upright", self.upright),
+            refine=_flag("refine", self.refine),
+            corner_choice=CornerChoice.of("corner_choice", self.corner_choice),
+        )
+
+    def of_charts(self, count: int) -> list[Shape]:
+        """The shape of each of so many charts.
+
+        Raises
+        ------
+        OptionError
+            There are not as many as charts.
+        """
+        if isinstance(self.shape, Shape):
+            return [self.shape] * count
+        if len(self.shape) != count:
+            raise OptionError(f"{len(self.shape)} shapes for {count} charts; pass one for all, or one for each.")
+        return list(self.shape)
 
 
 def _flag(name: str, value: object) -> bool:

@@ -16,7 +16,6 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from ..errors import SolverError
-from ..mesh.geometry import triangle_geometry
 from ..mesh.surface import Surface
 from ..operators.distortion import distortion_of
 from ..operators.mean_value import NeighbourMeans, positive_mean_value_matrix
@@ -25,13 +24,12 @@ from ..operators.orientation_sign import flipped_faces
 from ..progress import Progress
 from .placement import inside_disk
 
-__all__ = ["Repair", "recentred", "repair_cost", "repaired", "unresolved_faces"]
+__all__ = ["Repair", "recentred", "repair_cost", "repaired"]
 
 Complex = NDArray[np.complex128]
 Faces = NDArray[np.int64]
 
 RINGS = (1, 2, 4, 8, 16)  # of the patch around a fold
-RESOLUTION = 16.0 * np.finfo(np.float64).eps  # of a position in the disk, with a few operations behind it
 
 
 @dataclass(frozen=True)
@@ -64,13 +62,6 @@ def repair_cost(surface: Surface, before: Complex, after: Complex, folds: Faces,
         angle_mean_before=angles[0],
         angle_mean_after=angles[1],
     )
-
-
-def unresolved_faces(z: Complex, corners: NDArray[np.int32], faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Those of the faces whose height in the disk is within the rounding of the positions."""
-    shape = triangle_geometry(_points(z), corners[:, faces])
-    longest = np.sqrt(shape.squared_lengths.max(axis=0, initial=0.0))
-    return faces[shape.double_area <= RESOLUTION * np.maximum(longest, RESOLUTION)]
 
 
 def repaired(

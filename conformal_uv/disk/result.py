@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..operators.distortion import Distortion, distortion_of
 from ..operators.orientation_sign import orientation_signs
+from ..operators.plane_map import unresolved_faces
 from ..operators.wirtinger import conformal_energy, enclosed_area
 from ..optimize import AugmentedLagrangianStep, NewtonStep
 from ..options import DiskOptions
-from .repair import Repair, unresolved_faces
+from .repair import Repair
 from .solution import Solution
 
 __all__ = ["DiskMap", "disk_map_result"]

@@ -14,13 +14,14 @@ from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.distortion import Distortion, distortion_of
 from ..operators.orientation_sign import flipped_faces
+from ..operators.plane_map import PlaneMap
 from ..operators.polygon_crossings import polygon_crossings
 
 __all__ = ["FreeMap", "free_map_result"]
 
 
 @dataclass(frozen=True, eq=False)
-class FreeMap:
+class FreeMap(PlaneMap):
     """A map of a surface to the plane whose boundary takes its own shape.
 
     Attributes

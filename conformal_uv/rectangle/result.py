@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from ..disk.repair import Repair
 from ..mesh.surface import Surface
 from ..operators.distortion import Distortion, distortion_of
+from ..operators.plane_map import PlaneMap
 
 __all__ = ["RectangleMap"]
 
 
 @dataclass(frozen=True, eq=False)
-class RectangleMap:
+class RectangleMap(PlaneMap):
     """A map of a surface to the rectangle [0, w] x [0, 1].
 
     Attributes
