@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 import conformal_uv as cuv
-from conformal_uv.disk import centre_cell
+from conformal_uv.disk import auto, centre_cell
 from conformal_uv.disk.boundary_energy import BoundaryEnergy
 from conformal_uv.disk.gauge import CentreGauge
 from conformal_uv.disk.harmonic_measure import centred_measure
@@ -81,9 +81,7 @@ def test_newtons_step_on_the_measure_is_of_second_order() -> None:
 
 
 @pytest.mark.parametrize(("shift", "kept"), [(0.02, True), (0.9, False)])
-def test_the_center_is_released_within_its_cell_only(
-    shift: float, kept: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_center_is_released_within_its_cell_only(shift: float, kept: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """A minimum that leaves the center's image outside the star of the central vertex is not taken."""
     V, F = flat_disk(400)
     surface, problem = factorized(V, F)
@@ -146,3 +144,11 @@ def test_a_center_that_repair_moved_comes_back_by_a_moebius_map(away: complex) -
     back = recentred(moved, center, surface.corners)
     assert back[center] == 0.0 and back[rim] == 1.0
     np.testing.assert_allclose(back, Moebius.to_zero(moved[center], 1.0)(moved), atol=1e-12)
+
+
+def test_newton_goes_on_only_while_the_angles_are_better_than_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Than ever, not than at first: a step that gives back half of what was gained ends it."""
+    means = iter([5.0, 4.0, 4.0, 4.5])
+    monkeypatch.setattr(auto, "_angle_mean", lambda surface, energy: next(means))
+    watch = auto._Watch(None, None)  # type: ignore[arg-type]
+    assert [watch(None) for _ in range(3)] == [True, True, False]  # type: ignore[arg-type]
