@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import meshes
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 import conformal_uv as cuv
-from conformal_uv.disk import auto, centre_cell
+from conformal_uv.disk import auto, centre_cell, mapper
 from conformal_uv.disk.boundary_energy import BoundaryEnergy
 from conformal_uv.disk.gauge import CentreGauge
 from conformal_uv.disk.harmonic_measure import centred_measure
 from conformal_uv.disk.newton import NewtonResult, _newton_direction, minimise_boundary_energy
 from conformal_uv.disk.placement import CUBE_ROOTS, place_pins
-from conformal_uv.disk.repair import recentred, unresolved_faces
+from conformal_uv.disk.repair import _where_better, recentred, unresolved_faces
 from conformal_uv.disk.tangent import Tangent
 from conformal_uv.mesh import Surface
 from conformal_uv.operators.dirichlet import DirichletProblem
@@ -108,10 +110,10 @@ def test_the_center_is_released_within_its_cell_only(shift: float, kept: bool, m
 def test_pins_where_a_moebius_map_of_the_vertices_folds() -> None:
     """Then the moved boundary is extended harmonically: on a flat Delaunay mesh an embedding (Tutte)."""
     V, F = meshes.scattered_disk(30, 16, seed=4)
-    mapper = cuv.DiskMapper(V, F, laplacian="cotan")
+    own = cuv.DiskMapper(V, F, laplacian="cotan")
     surface, problem = factorized(V, F)
-    z = mapper.map(method="linear").uv @ [1.0, 1.0j]
-    loop = mapper.boundary
+    z = own.map(method="linear").uv @ [1.0, 1.0j]
+    loop = own.boundary
     folded = 0
     for second in range(1, len(loop) - 1):
         pins = tuple(int(v) for v in loop[[0, second, second + 1]])
@@ -150,5 +152,34 @@ def test_newton_goes_on_only_while_the_angles_are_better_than_ever(monkeypatch: 
     """Than ever, not than at first: a step that gives back half of what was gained ends it."""
     means = iter([5.0, 4.0, 4.0, 4.5])
     monkeypatch.setattr(auto, "_angle_mean", lambda surface, energy: next(means))
-    watch = auto._Watch(None, None)  # type: ignore[arg-type]
-    assert [watch(None) for _ in range(3)] == [True, True, False]  # type: ignore[arg-type]
+    watch = auto._Watch(None, None)
+    assert [watch(None) for _ in range(3)] == [True, True, False]
+
+
+@pytest.mark.parametrize(
+    ("means", "folds", "converged", "chosen"),
+    [
+        ((5.0, 5.005), (1, 0), (True, True), 1),  # nobody looks for the difference
+        ((5.0, 5.02), (1, 0), (True, True), 0),
+        ((5.0, 4.995), (0, 0), (True, False), 0),
+        ((5.0, 4.995), (0, 0), (True, True), 1),
+    ],
+)
+def test_of_maps_with_angles_alike_the_one_with_fewer_folds(
+    means: tuple, folds: tuple, converged: tuple, chosen: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = iter(means)
+    monkeypatch.setattr(mapper, "distortion_of", lambda *args: SimpleNamespace(angle_mean=next(told)))
+    candidates = [
+        mapper._Finished(SimpleNamespace(converged=done), np.zeros(1, complex), np.arange(count), None, None)
+        for count, done in zip(folds, converged, strict=True)
+    ]
+    assert cuv.DiskMapper(*meshes.plate(3, 3))._better(candidates) is candidates[chosen]
+
+
+def test_a_part_of_a_patch_moves_only_where_that_mends_some_of_its_folds() -> None:
+    """Three triangles apart: one mended, one as folded as before, one folded anew."""
+    z = np.arange(9) + 0.0j
+    corners = np.arange(9, dtype=np.int32).reshape(3, 3).T.copy()
+    found = _where_better(corners, np.ones(9, dtype=bool), z, np.array([0, 1]), z + 1.0j, np.array([1, 2]))
+    np.testing.assert_array_equal(found.imag, [1, 1, 1, 0, 0, 0, 0, 0, 0])
