@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
+from polygon_shapes import grid, tube
 
 import conformal_uv as cuv
 from conformal_uv.charts.chart_progress import ChartProgress
 from conformal_uv.charts.cut_graph import OneChart, _cotree
+from conformal_uv.charts.packing import kept_margin, pack_disks
 
 
 def pair_of_polygons(length: list[float]) -> OneChart:
@@ -47,3 +50,66 @@ def test_fractions_of_a_stage_that_goes_back_do_not() -> None:
         for stage, fraction in (("linear", 1.0), ("newton", 0.5), ("factorization", 0.0), ("unheard of", 1.0)):
             progress(stage, fraction)
     assert told == sorted(told) and len(set(told)) == 4
+
+
+def test_many_disks_keep_a_quarter_of_their_share_at_most() -> None:
+    """A margin that left no room for the disks is cut: of 16, four along each side, a quarter is a share."""
+    assert kept_margin(0.4, 16) == 0.25 / 4.0 and kept_margin(0.01, 16) == 0.01
+    assert kept_margin(0.4, 1) == 0.25
+    radius = np.ones(16)
+    margin = kept_margin(0.4, 16)
+    centers, scale = pack_disks(radius, margin)
+    apart = np.linalg.norm(centers[:, None] - centers, axis=2)[np.triu_indices(16, 1)]
+    assert apart.min() >= 2.0 * scale + margin - 1e-12
+    assert scale > 0.05  # three quarters of a share across, less what whole cells take
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_of_loops_alike_the_first_becomes_the_circle(turned: bool) -> None:
+    """The two rims of a tube; the one whose polygon comes first."""
+    V, Q = tube(8, 4, 3.0)
+    Q = Q[::-1] if turned else Q
+    (chart,) = cuv.unwrap(V, Q, method="linear").charts
+    rim = np.arange(8) + (len(V) - 8 if turned else 0)
+    assert sorted(chart.vertices[chart.map.boundary].tolist()) == rim.tolist()
+
+
+def test_of_two_quads_that_share_a_diagonal_neither_is_preferred() -> None:
+    """Both become stars: which one the caller names first makes no difference."""
+    V = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 1, 0.8]])
+    one, other = [0, 1, 2, 3], [2, 1, 0, 4]
+    u = cuv.unwrap(V, [one, other], place="disk", boundary_vertex=0, method="linear")
+    v = cuv.unwrap(V, [other, one], place="disk", boundary_vertex=0, method="linear")
+    np.testing.assert_allclose(u.uv, np.concatenate((v.uv[4:], v.uv[:4])), atol=1e-12)
+
+
+def test_signs_spread_along_a_tree_by_the_parity_of_its_crossings() -> None:
+    """A Moebius band of polygons wound at random: the cut leaves one strip, whose windings all agree."""
+    rng = np.random.default_rng(0)
+    for count in (5, 8, 13):
+        turn = 2.0 * np.pi * np.arange(count) / count
+        arm = 0.4 * np.column_stack(
+            (np.cos(turn / 2) * np.cos(turn), np.cos(turn / 2) * np.sin(turn), np.sin(turn / 2))
+        )
+        middle = np.column_stack((np.cos(turn), np.sin(turn), 0.0 * turn))
+        V = np.concatenate((middle - arm, middle + arm))
+        k = np.arange(count)
+        Q = np.column_stack((k, (k + 1) % count, (k + 1) % count + count, k + count))
+        Q[-1] = [count - 1, count, 0, 2 * count - 1]
+        for _ in range(5):
+            mixed = np.where(rng.random((count, 1)) < 0.5, Q[:, ::-1], Q)
+            (chart,) = cuv.unwrap(V, mixed, orientation="mend", method="linear").charts
+            assert chart.status == "mapped" and not len(chart.flipped)
+            assert len(chart.vertices) == 2 * count + 2  # cut across once: the two ends have their own vertices
+
+
+def test_a_slit_of_the_circle_stays_open_where_a_hole_is_filled() -> None:
+    """A seam from the rim of a plate of 5 x 5 quads without the middle one: both its sides lie on the circle."""
+    V, Q = grid(5, 5)
+    Q = np.delete(Q, 12, axis=0)
+    (chart,) = cuv.unwrap(V, Q, seams=[[2, 8]], method="linear").charts
+    assert chart.notes == ["1 hole filled for the solution"]
+    assert len(chart.map.boundary) == 20 + 2
+    hole_and_beside = [14, 13]
+    (chart,) = cuv.unwrap(V, Q, seams=[[2, 8], hole_and_beside], method="linear").charts
+    assert len(chart.map.boundary) == 20 + 2 and "seams that end inside the chart were closed" in chart.notes

@@ -416,10 +416,12 @@ def test_ply_unreferenced_vertex_needs_wedges(tmp_path):
     np.testing.assert_array_equal(read_mesh(tmp_path / "a.ply").corner_uv, uv)
 
 
-def test_ply_big_polygon_has_room_for_its_length(tmp_path):
-    mesh = PolygonMesh(np.random.default_rng(0).random((300, 3)), np.arange(300), np.array([0, 300]))
-    uv = np.full((300, 2), 0.5)
-    uv[:, 0] = np.arange(300)
+@pytest.mark.parametrize("size", [127, 128, 255, 256, 300])
+def test_ply_big_polygon_has_room_for_its_length(tmp_path, size):
+    """A byte counts to 255 corners, or the texture numbers of 127."""
+    mesh = PolygonMesh(np.random.default_rng(0).random((size, 3)), np.arange(size), np.array([0, size]))
+    uv = np.full((size, 2), 0.5)
+    uv[:, 0] = np.arange(size)
     write_mesh(tmp_path / "a.ply", MeshFile(Path("x"), mesh), corner_uv=uv)
     again = read_mesh(tmp_path / "a.ply")
     assert same_mesh(again.mesh, mesh) and np.array_equal(again.corner_uv, uv)
@@ -431,6 +433,13 @@ def test_ply_absurd_counts_are_refused_before_allocation(tmp_path):
         bad = re.sub(rb"element vertex \d+", b"element vertex " + count, data)
         with pytest.raises(FileFormatError, match="can hold"):
             read_mesh(saved(tmp_path, "a.ply", bad))
+    rows = len(data) - data.index(b"end_header\n") - len(b"end_header\n")
+    most = (rows + 1) // 25  # three doubles and a byte each; a last newline may be missing
+    for count in (most, most + 1):
+        bad = re.sub(rb"element vertex \d+", b"element vertex %d" % count, data)
+        with pytest.raises(FileFormatError) as refused:
+            read_mesh(saved(tmp_path, "a.ply", bad))
+        assert ("can hold" in str(refused.value)) == (count > most)
 
 
 def test_ply_index_out_of_range_names_the_face(tmp_path):
@@ -581,6 +590,7 @@ def test_npz_of_others(tmp_path):
         (dict(V=np.eye(3), F=[[0, 1, 3]]), "face 0"),
         (dict(V=np.eye(3), corners=[0, 1, 2], starts=[0, 2]), "starts"),
         (dict(V=np.eye(3), corners=[0, 1, 2], starts=[0, 5, 3]), "starts"),
+        (dict(V=np.eye(3), corners=[0, 0, 1, 2], starts=[1, 4]), "starts"),
         (dict(V=np.eye(3), F=[[0, 1, 2]], uv=np.zeros((2, 2))), "rows"),
         (dict(V=np.eye(3) * 1j, F=[[0, 1, 2]]), "real"),
         (dict(V=np.array([None]), F=[[0, 1, 2]]), "real"),

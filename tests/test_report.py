@@ -36,6 +36,16 @@ def test_numbers_against_the_arrays_they_sum_up() -> None:
     assert numbers.conformal_energy == sum(chart.map.conformal_energy for chart in result.charts)
 
 
+def test_vertices_of_several_charts_count_once() -> None:
+    """A plate of 6 x 5 quads cut in two along a grid line: the caller's vertices, however many charts have them."""
+    V, F = plate(6, 5)
+    line = np.flatnonzero(V[:, 0] == V[3, 0])
+    result = cuv.unwrap(V, F, seams=np.column_stack((line[:-1], line[1:])), method="linear", place="disk")
+    numbers = unwrap_numbers(result)
+    assert numbers.charts == 2 and sum(len(chart.vertices) for chart in result.charts) == len(V) + len(line)
+    assert numbers.vertices == len(V) and numbers.triangles == len(F)
+
+
 def test_some_charts_and_none() -> None:
     result = cuv.unwrap(*TWO, method="linear")
     one = unwrap_numbers(result, chosen=np.array([True, False]))
