@@ -60,7 +60,7 @@ def test_edges_between_the_same_two_vertices_add_up() -> None:
     """As in an intrinsic triangulation; the Dirichlet energy is that of all of them."""
     lo, hi = np.array([1, 0, 0, 1, 0], np.int32), np.array([2, 1, 2, 2, 1], np.int32)
     weights = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
-    found = _sorted(lo, hi, weights, 3)
+    found = _sorted(lo, hi, weights, 3, np.array([[0, 1], [1, 0], [2, 2]], np.int32))
     assert (found.lo.tolist(), found.hi.tolist(), found.weights.tolist()) == ([0, 0, 1], [1, 2, 2], [18.0, 4.0, 9.0])
     z = np.array([0.3, 1.0 + 2.0j, -1.0j])
     assert found.energy(z) == pytest.approx(0.5 * (weights * np.abs(z[lo] - z[hi]) ** 2).sum(), rel=1e-15)
@@ -69,7 +69,7 @@ def test_edges_between_the_same_two_vertices_add_up() -> None:
 def test_a_vertex_whose_weights_are_all_lost_is_held_by_a_little() -> None:
     """Else it would float, and its row be 0; edges between other vertices keep what they have."""
     lo, hi = np.array([0, 0, 1, 1, 2], np.int32), np.array([1, 2, 2, 3, 3], np.int32)
-    found = _sorted(lo, hi, np.array([1.0, 0.0, 2.0, 0.0, 0.0]), 4)
+    found = _sorted(lo, hi, np.array([1.0, 0.0, 2.0, 0.0, 0.0]), 4, np.array([[0, 1], [1, 3], [2, 2]], np.int32))
     assert found.weights.tolist() == [1.0, 0.0, 2.0, LEAST, LEAST]
 
 
