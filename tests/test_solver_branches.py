@@ -9,6 +9,7 @@ import pytest
 
 from conformal_uv.linear.backends import choose_backend, linear_solver
 from conformal_uv.linear.linear_system import LowerTriangle
+from conformal_uv.mesh.arrays import on_one_line
 from conformal_uv.mesh.large_polygons import _clean_ears
 from conformal_uv.operators.edge_laplacian import LEAST, _sorted
 from conformal_uv.operators.mean_value import LEAST_RATIO, positive_mean_value_matrix
@@ -111,3 +112,11 @@ def test_no_ear_is_cut_over_another_corner_however_many_are_nearer() -> None:
         assert np.flatnonzero(np.min(height, axis=0) >= 0.0).tolist() == sorted(
             [(tip - 1) % len(P), tip, (tip + 1) % len(P)]
         )
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_points_of_a_coordinate_plane_lie_on_no_line(axis: int) -> None:
+    """Seen along two of the three axes they do."""
+    V = np.insert(np.random.default_rng(0).uniform(0.1, 0.9, (200, 2)), axis, 0.5, axis=1)
+    assert not on_one_line(V)
+    assert on_one_line(np.where(np.arange(3) == axis, 0.5, V[:, [axis - 1]]))
