@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 import conformal_uv as cuv
-from conformal_uv.disk import auto, centre_cell, mapper
+from conformal_uv.disk import auto, centre_cell, mapper, placement
 from conformal_uv.disk.boundary_energy import BoundaryEnergy
 from conformal_uv.disk.gauge import CentreGauge
 from conformal_uv.disk.harmonic_measure import centred_measure
@@ -183,3 +183,21 @@ def test_a_part_of_a_patch_moves_only_where_that_mends_some_of_its_folds() -> No
     corners = np.arange(9, dtype=np.int32).reshape(3, 3).T.copy()
     found = _where_better(corners, np.ones(9, dtype=bool), z, np.array([0, 1]), z + 1.0j, np.array([1, 2]))
     np.testing.assert_array_equal(found.imag, [1, 1, 1, 0, 0, 0, 0, 0, 0])
+
+
+def test_a_vertex_that_sees_half_under_one_boundary_vertex_is_placed_point_by_point(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """No map of the disk brings the mean of the boundary to 0 then; with less than half there is one."""
+    surface, problem = factorized(*flat_disk(200))
+    z = problem.extend(np.exp(1j * centred_measure(surface, problem).theta))
+    nb = len(problem.boundary)
+    placed, first, center = z.copy(), int(problem.boundary[0]), int(problem.interior[0])
+    for most in (0.5, 0.9, 0.45):
+        measure = np.full(nb, (1.0 - most) / (nb - 1))
+        measure[7] = most
+        monkeypatch.setattr(problem, "harmonic_measure", lambda vertex, measure=measure: measure)
+        found = placement._extended_about(problem, z, placed, center, first)
+        assert (found is placed) == (most >= 0.5)
+        if most < 0.5:
+            assert abs(measure @ found[problem.boundary]) < 1e-12 and abs(found[first] - 1.0) < 1e-15

@@ -6,15 +6,21 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from meshes import plate
 
 from conformal_uv.linear.backends import choose_backend, linear_solver
 from conformal_uv.linear.linear_system import LowerTriangle
+from conformal_uv.mesh import Surface
 from conformal_uv.mesh.arrays import on_one_line
 from conformal_uv.mesh.large_polygons import _clean_ears
+from conformal_uv.mesh.triangulate import _ear_quality
 from conformal_uv.operators.edge_laplacian import LEAST, _sorted
 from conformal_uv.operators.mean_value import LEAST_RATIO, positive_mean_value_matrix
 from conformal_uv.operators.mollification import ROOM, mollified
+from conformal_uv.operators.orientation_sign import orientation_signs, outward_signs
 from conformal_uv.optimize import line_search, log_fraction
+
+EPS = np.finfo(np.float64).eps
 
 
 class Place(NamedTuple):
@@ -120,3 +126,29 @@ def test_points_of_a_coordinate_plane_lie_on_no_line(axis: int) -> None:
     V = np.insert(np.random.default_rng(0).uniform(0.1, 0.9, (200, 2)), axis, 0.5, axis=1)
     assert not on_one_line(V)
     assert on_one_line(np.where(np.arange(3) == axis, 0.5, V[:, [axis - 1]]))
+
+
+def test_only_corners_that_are_left_can_lie_in_an_ear() -> None:
+    """A corner that was cut before is none of the polygon's any more."""
+    P = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.6, 0.4]]])
+    ear = np.array([[0, 1, 2]])
+    covering, clean = (_ear_quality(P, np.array([[True, True, True, left]]), ear)[0] for left in (True, False))
+    assert covering < 0.0 and clean == pytest.approx(2.0 + np.sin(np.radians(45.0)))
+
+
+def test_signs_of_triangles_with_equal_coordinates_are_exact() -> None:
+    """Corners one unit in the last place apart and of one height, seen from far: rounded, the area is 0."""
+    uv = np.array([[1.0, 0.25], [1.0 + EPS, 0.25], [1e3, 0.75], [1e3, -0.75]])
+    corners = np.array([[0, 1, 2], [0, 1, 3], [1, 0, 2], [0, 0, 2]], dtype=np.int32).T
+    assert orientation_signs(uv, np.ascontiguousarray(corners)).tolist() == [1, -1, -1, 0]
+    lifted = np.column_stack((uv, np.ones(4)))  # seen from above, as from the origin
+    assert outward_signs(lifted, np.ascontiguousarray(corners)).tolist() == [1, -1, -1, 0]
+
+
+def test_the_tip_of_a_cap_is_in_the_middle_of_its_loop() -> None:
+    V, F = plate(5, 4, ((1, 1, 2, 1),))
+    surface = Surface.from_arrays(V, F)
+    capped = surface.capped()
+    assert capped.n == surface.n + 2 and not capped.loops and capped.genus == 0
+    for tip, loop in zip(capped.V[surface.n :], surface.loops, strict=True):
+        np.testing.assert_allclose(tip, surface.V[loop].mean(axis=0), rtol=1e-15)

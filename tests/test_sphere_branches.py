@@ -12,6 +12,7 @@ import conformal_uv as cuv
 from conformal_uv.mesh.distinguished import distinguished
 from conformal_uv.operators.orientation_sign import inverted_faces
 from conformal_uv.sphere import newton, solution
+from conformal_uv.sphere.centring import centred, landmark_aligned
 
 
 def test_a_step_that_uncovers_part_of_the_sphere_is_halved(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,3 +74,13 @@ def test_of_alike_vertices_the_nearest_to_the_middle_at_every_scale(scale: float
     candidates = np.arange(0, len(V), 7)
     nearest = candidates[np.argmin(np.linalg.norm(V[candidates] - middle, axis=1))]
     assert distinguished(V, np.ascontiguousarray(F.T.astype(np.int32)), candidates) == nearest
+
+
+def test_landmarks_are_met_by_a_moebius_map_of_all_vertices() -> None:
+    """It is told by three points: where they stand already nothing moves, and what was moved away comes back."""
+    V, _ = icosphere(2)
+    x = np.concatenate(([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], V @ np.linalg.qr(V[:3] + 0.1)[0]))
+    np.testing.assert_allclose(landmark_aligned(x, (0, 1, 2)), x, atol=1e-12)
+    pushed = centred(x, np.exp(3.0 * x[:, 1]) / np.exp(3.0 * x[:, 1]).sum())
+    assert np.abs(pushed - x).max() > 0.3
+    np.testing.assert_allclose(landmark_aligned(pushed, (0, 1, 2)), x, atol=1e-9)
