@@ -113,3 +113,19 @@ def test_a_slit_of_the_circle_stays_open_where_a_hole_is_filled() -> None:
     hole_and_beside = [14, 13]
     (chart,) = cuv.unwrap(V, Q, seams=[[2, 8], hole_and_beside], method="linear").charts
     assert len(chart.map.boundary) == 20 + 2 and "seams that end inside the chart were closed" in chart.notes
+
+
+def test_meshes_packed_together_keep_their_areas_to_each_other() -> None:
+    """One of them has a hole that is filled for the solution: its image is less than its disk."""
+    meshes = grid(6, 6), grid(7, 7)
+    meshes = (
+        meshes[0],
+        (meshes[1][0], np.delete(meshes[1][1], [*range(15, 20), *range(22, 27), *range(29, 34)], axis=0)),
+    )
+    results = [cuv.unwrap(*mesh, place="disk", method="linear") for mesh in meshes]
+    shares = []
+    for (_, Q), uv in zip(meshes, cuv.pack_together(results, [np.array([True])] * 2), strict=True):
+        x, y = np.moveaxis(uv.reshape(-1, 4, 2), -1, 0)
+        image = 0.5 * (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum()
+        shares.append(image / len(Q))  # unit quads
+    assert shares[0] == pytest.approx(shares[1], rel=1e-9)

@@ -442,6 +442,20 @@ def test_ply_absurd_counts_are_refused_before_allocation(tmp_path):
         assert ("can hold" in str(refused.value)) == (count > most)
 
 
+@pytest.mark.parametrize(("numbers", "told"), [("4 0 0 1 0", "face 1: 4 texture numbers for 3 corners"), ("0", None)])
+def test_ply_texture_numbers_are_two_a_corner_or_none(tmp_path, numbers, told):
+    data = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    data += "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+    data += f"0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 6 0 0 1 0 0 1\n3 1 3 2 {numbers}\n"
+    path = saved(tmp_path, "a.ply", data.encode())
+    if told is None:
+        uv = read_mesh(path).corner_uv
+        np.testing.assert_array_equal(uv, [[0, 0], [1, 0], [0, 1]] + [[np.nan, np.nan]] * 3)
+    else:
+        with pytest.raises(FileFormatError, match=rf"a\.ply.*{told}"):
+            read_mesh(path)
+
+
 def test_ply_index_out_of_range_names_the_face(tmp_path):
     mesh = triangles()
     corners = mesh.corners.copy()
