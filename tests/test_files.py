@@ -1,6 +1,7 @@
 """Mesh files: hand-written ones read right, everything but texture coordinates kept, damage refused in type."""
 
 import builtins
+import gzip
 import io
 import os
 import re
@@ -16,6 +17,7 @@ import pytest
 
 from conformal_uv.errors import FileFormatError, MissingDependencyError, NonFiniteError, OptionError
 from conformal_uv.files import MeshFile, check_writable, read_mesh, replaced_file, write_mesh
+from conformal_uv.files.corner_uv import shared_uv
 from conformal_uv.mesh.polygons import PolygonMesh
 
 NAN = float("nan")
@@ -440,6 +442,26 @@ def test_ply_absurd_counts_are_refused_before_allocation(tmp_path):
         with pytest.raises(FileFormatError) as refused:
             read_mesh(saved(tmp_path, "a.ply", bad))
         assert ("can hold" in str(refused.value)) == (count > most)
+
+
+@pytest.mark.parametrize("size", [16, 18])
+def test_packed_files_hold_no_more_than_a_mesh_can_be_packed(tmp_path, size):
+    """Blanks are packed into a thousandth: 16 million of them are read, 18 million refused (the bound is 2^24)."""
+    data = OFF + b" " * (size * 10**6)
+    path = saved(tmp_path, "a.off.gz", gzip.compress(data))
+    if size < 2**24 / 1e6:
+        assert len(read_mesh(path).mesh.sizes)
+    else:
+        with pytest.raises(FileFormatError, match=r"a\.off\.gz.*this is no packed mesh"):
+            read_mesh(path)
+
+
+@pytest.mark.parametrize("apart", [[0, 0], [0.25, 0], [0, 0.25], [-0.25, 0.25]])
+def test_corners_share_texture_coordinates_where_both_numbers_are_equal(apart):
+    uv = np.array([[0.5, 0.5], [0.1, 0.2], np.array([0.5, 0.5]) + apart, [0.5, 0.5]])
+    number, example = shared_uv(np.array([1, 0, 1, 1]), uv)
+    np.testing.assert_array_equal(uv[example][number], uv)
+    assert len(example) == (3 if any(apart) else 2) and number[0] == number[3]
 
 
 @pytest.mark.parametrize(("numbers", "told"), [("4 0 0 1 0", "face 1: 4 texture numbers for 3 corners"), ("0", None)])
