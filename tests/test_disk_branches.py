@@ -157,16 +157,17 @@ def test_newton_goes_on_only_while_the_angles_are_better_than_ever(monkeypatch: 
 
 
 @pytest.mark.parametrize(
-    ("means", "folds", "converged", "chosen"),
+    ("means", "folds", "converged", "always", "chosen"),
     [
-        ((5.0, 5.005), (1, 0), (True, True), 1),  # nobody looks for the difference
-        ((5.0, 5.02), (1, 0), (True, True), 0),
-        ((5.0, 4.995), (0, 0), (True, False), 0),
-        ((5.0, 4.995), (0, 0), (True, True), 1),
+        ((5.0, 5.005), (1, 0), (True, True), False, 1),  # nobody looks for the difference
+        ((5.0, 5.02), (1, 0), (True, True), False, 0),
+        ((5.0, 5.02), (1, 0), (True, True), True, 1),
+        ((5.0, 4.995), (0, 0), (True, False), False, 0),
+        ((5.0, 4.995), (0, 0), (True, True), False, 1),
     ],
 )
 def test_of_maps_with_angles_alike_the_one_with_fewer_folds(
-    means: tuple, folds: tuple, converged: tuple, chosen: int, monkeypatch: pytest.MonkeyPatch
+    means: tuple, folds: tuple, converged: tuple, always: bool, chosen: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told = iter(means)
     monkeypatch.setattr(mapper, "distortion_of", lambda *args: SimpleNamespace(angle_mean=next(told)))
@@ -174,7 +175,7 @@ def test_of_maps_with_angles_alike_the_one_with_fewer_folds(
         mapper._Finished(SimpleNamespace(converged=done), np.zeros(1, complex), np.arange(count), None, None)
         for count, done in zip(folds, converged, strict=True)
     ]
-    assert cuv.DiskMapper(*meshes.plate(3, 3))._better(candidates) is candidates[chosen]
+    assert cuv.DiskMapper(*meshes.plate(3, 3))._better(candidates, always) is candidates[chosen]
 
 
 def test_a_part_of_a_patch_moves_only_where_that_mends_some_of_its_folds() -> None:
