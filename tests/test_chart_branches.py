@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from polygon_shapes import grid, tube
+from polygon_shapes import block, grid, tube
 
 import conformal_uv as cuv
 from conformal_uv.charts.chart_progress import ChartProgress
@@ -129,3 +129,41 @@ def test_meshes_packed_together_keep_their_areas_to_each_other() -> None:
         image = 0.5 * (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum()
         shares.append(image / len(Q))  # unit quads
     assert shares[0] == pytest.approx(shares[1], rel=1e-9)
+
+
+@pytest.mark.parametrize("elsewhere", [False, True])
+def test_a_selection_that_touches_itself_is_refused_unless_others_hold_it_there(elsewhere: bool) -> None:
+    """Two triangles that touch in vertex 0, and a third: far off, or between them."""
+    V = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0], [5, 5, 0], [6, 5, 0], [6, 6, 0.0]])
+    third = [0, 2, 3] if elsewhere else [5, 6, 7]
+    u = cuv.unwrap(V, [[0, 1, 2], [0, 3, 4], third], selection=[0, 1], place="disk")
+    assert [type(chart.error) for chart in u.charts] == [type(None) if elsewhere else cuv.NonManifoldError] * 2
+
+
+def test_vertices_of_a_chart_that_failed_may_be_named() -> None:
+    """What it would have used them for can not be told; those of no use to any chart are refused."""
+    V, Q = grid(3, 3)
+    solid, faces = block(np.ones((1, 1, 1)))
+    polygons = [*Q.tolist(), *(faces + len(V)).tolist()]
+    points = np.concatenate((V, solid + [9.0, 0.0, 0.0]))
+    u = cuv.unwrap(points, polygons, center=[5, len(V)], place="disk")
+    assert [chart.status for chart in u.charts] == ["mapped", "failed"]
+    with pytest.raises(cuv.OptionError, match="center"):
+        cuv.unwrap(points, polygons, center=[0, len(V)], place="disk")
+
+
+def test_a_hole_is_filled_from_its_middle() -> None:
+    V, Q = grid(5, 5)
+    V = V + [3.0, 2.0, 1.0]
+    (chart,) = cuv.unwrap(V, np.delete(Q, 12, axis=0), method="linear").charts
+    np.testing.assert_allclose(chart.mesh.V[len(chart.vertices) :], [V[Q[12]].mean(axis=0)], rtol=1e-15)
+
+
+def test_a_bar_is_cut_from_end_to_end_wherever_its_numbers_begin() -> None:
+    """The farthest of the farthest: nine steps along and one across each way, whichever vertex is the first."""
+    V, Q = block(np.ones((9, 1, 1)))
+    for first in range(0, len(V), 5):
+        order = np.roll(np.arange(len(V)), -first)
+        number = np.argsort(order)
+        (chart,) = cuv.unwrap(V[order], number[Q], closed="cut", method="linear", place="disk").charts
+        assert chart.notes == ["closed: cut open along 11 edges"]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import conformal_uv as cuv
 from conformal_uv.disk import auto, centre_cell, mapper, placement
 from conformal_uv.disk.boundary_energy import BoundaryEnergy
-from conformal_uv.disk.gauge import CentreGauge
+from conformal_uv.disk.gauge import CentreGauge, PinGauge
 from conformal_uv.disk.harmonic_measure import centred_measure
 from conformal_uv.disk.newton import NewtonResult, _newton_direction, minimise_boundary_energy
 from conformal_uv.disk.placement import CUBE_ROOTS, place_pins
@@ -202,3 +202,24 @@ def test_a_vertex_that_sees_half_under_one_boundary_vertex_is_placed_point_by_po
         assert (found is placed) == (most >= 0.5)
         if most < 0.5:
             assert abs(measure @ found[problem.boundary]) < 1e-12 and abs(found[first] - 1.0) < 1e-15
+
+
+def test_the_center_is_restored_without_a_turn() -> None:
+    """The gauge keeps the image of the center at 0 and the mean angle as it was at first."""
+    theta = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
+    measure = 1.0 + 0.5 * np.cos(theta)
+    gauge = CentreGauge(measure / measure.sum(), theta)
+    restored = gauge.restore(theta + 0.4 + 0.2 * np.sin(theta))
+    assert abs(measure @ np.exp(1j * restored)) < 1e-12
+    assert measure @ restored == pytest.approx(measure @ theta, rel=1e-14)
+
+
+def test_pins_that_are_linked_hold_no_more_than_they_say() -> None:
+    """Two of three pins in one chain: two constraints, and all that leaves both chains at rest is free."""
+    links = np.zeros(12, dtype=bool)
+    links[[3, 4, 8]] = True
+    tangent = Tangent(PinGauge(np.array([3, 5, 10])), np.linspace(0.0, 6.0, 12), links)
+    for seed in range(5):
+        free = np.random.default_rng(seed).normal(size=12)
+        free[[3, 4, 5, 10]], free[9] = 0.0, free[8]
+        np.testing.assert_allclose(tangent.project(free), free, atol=1e-14)
