@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import conformal_uv as cuv
 from conformal_uv import PolygonMesh
 from conformal_uv.cli.outputs import Outputs
 from conformal_uv.cli.seams import read_seams
 from conformal_uv.console import stages
+from conformal_uv.console.summary import distortion_summary
 from conformal_uv.files import MeshFile
 
 
@@ -45,3 +48,25 @@ def test_seconds_of_a_stage_that_comes_again_add_up(monkeypatch: pytest.MonkeyPa
         for stage in ("factorization", "linear", "factorization"):
             watch(stage, 0.0)
     assert watch.seconds == {"factorization": 1.0 + 4.0, "linear": 2.0}
+
+
+def test_numbers_without_bound_are_none_in_json() -> None:
+    """JSON has no infinity: a face without area in the image has a ratio of singular values without bound."""
+    V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]
+    d = cuv.distortion(V, [[0, 1, 2], [1, 3, 2]], [[0, 0], [1, 0], [0, 1], [0, 1]])
+    told = distortion_summary(cuv.distortion_numbers([d]))
+    assert told["quasi_conformal_ratio"] == {"median": None, "max": None}
+    json.dumps(told, allow_nan=False)
+
+
+def test_all_outputs_that_failed_are_told(tmp_path: Path) -> None:
+    def failing(path: Path) -> None:
+        raise cuv.FileFormatError(f"{path.name}: no room")
+
+    outputs = Outputs(mesh=tmp_path / "a.obj", plot=tmp_path / "b.png", json=tmp_path / "c.json")
+    with (
+        pytest.raises(cuv.ConformalUVError, match=r"^a\.obj: no room; b\.png: no room$"),
+        stages.Stages(quiet=True) as s,
+    ):
+        outputs.write(s, {"a": 1}, failing, failing)
+    assert json.loads((tmp_path / "c.json").read_text()) == {"a": 1}
