@@ -61,6 +61,15 @@ class ConformalUVError(Exception):
         What came in, and where.
     ways : tuple of str and Remedy
         What to do about it, one or the other; empty where the message says it.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> try:
+    ...     cuv.disk_map([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 1]])
+    ... except cuv.ConformalUVError as error:
+    ...     print(type(error).__name__, error.indices, error)
+    DegenerateFaceError (0,) 1 faces repeat a vertex: faces 0. Remove them.
     """
 
     def __init__(self, message: str, indices: Iterable[int] = (), ways: Sequence[str | Remedy] = ()) -> None:

@@ -30,6 +30,13 @@ class DistortionNumbers:
         Of the ratio of singular values; infinite where a triangle or its image has no area.
     area_ratio : float or None
         Largest over smallest change of area, of the triangles that have one.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> square, F = [[0, 0], [1, 0], [0, 1]], [[0, 1, 2]]
+    >>> cuv.distortion_numbers([cuv.distortion(square, F, square)]).angle_max
+    0.0
     """
 
     angle_mean: float
@@ -61,6 +68,14 @@ class UnwrapNumbers:
     lost_to_double : int
     lost_to_float32 : (c,) int64
         Triangles of each chart without positive area in single precision, as stored.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> from conformal_uv.samples import mask
+    >>> numbers = cuv.unwrap_numbers(cuv.unwrap(*mask(500)))
+    >>> numbers.charts, numbers.vertices, len(numbers.flipped), numbers.lost_to_float32.tolist()
+    (1, 500, 0, [0])
     """
 
     charts: int
@@ -175,6 +190,14 @@ def flipped_polygons(mesh: PolygonMesh, corner_uv: NDArray[np.floating]) -> NDAr
     Returns
     -------
     (q,) int64, ascending
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> import numpy as np
+    >>> mesh = cuv.PolygonMesh(np.eye(3), np.array([0, 1, 2]), np.array([0, 3]))
+    >>> cuv.flipped_polygons(mesh, [[0, 0], [0, 1], [1, 0]]).tolist()
+    [0]
     """
     _, polygon, corner = triangulate(mesh)
     uv = np.nan_to_num(np.asarray(corner_uv, dtype=np.float64))

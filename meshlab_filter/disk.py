@@ -123,8 +123,30 @@ def compute_texcoord_parametrization_conformal_disk(
     ConformalFilterException
         A PyMeshLabException: an option is not taken, or no part could be mapped; ``__cause__`` tells the kind.
     """
-    options = dict(locals())
-    return map_current_mesh(options.pop("ms"), **options).numbers
+    mapped = map_current_mesh(
+        ms,
+        method=method,
+        objective=objective,
+        holes=holes,
+        closed=closed,
+        nonmanifold=nonmanifold,
+        orientation=orientation,
+        repair=repair,
+        laplacian=laplacian,
+        center=center,
+        boundary_vertex=boundary_vertex,
+        pins=pins,
+        pin_mode=pin_mode,
+        seams=seams,
+        selected_only=selected_only,
+        place=place,
+        margin=margin,
+        backend=backend,
+        texture=texture,
+        quality=quality,
+        callback=callback,
+    )
+    return mapped.numbers
 
 
 def map_current_mesh(

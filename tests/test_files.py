@@ -1,6 +1,7 @@
 """Mesh files: hand-written ones read right, everything but texture coordinates kept, damage refused in type."""
 
 import builtins
+import gzip
 import io
 import os
 import re
@@ -16,6 +17,7 @@ import pytest
 
 from conformal_uv.errors import FileFormatError, MissingDependencyError, NonFiniteError, OptionError
 from conformal_uv.files import MeshFile, check_writable, read_mesh, replaced_file, write_mesh
+from conformal_uv.files.corner_uv import shared_uv
 from conformal_uv.mesh.polygons import PolygonMesh
 
 NAN = float("nan")
@@ -176,8 +178,8 @@ def test_obj_refusals_name_the_line(tmp_path, data, words):
     path = saved(tmp_path, "a.obj", data)
     with pytest.raises(FileFormatError) as caught:
         read_mesh(path)
-    for word in [str(path), *words]:
-        assert word in str(caught.value)
+    before, _, told = str(caught.value).partition(str(path))
+    assert not before and all(word in told for word in words)
 
 
 # --- OBJ, out
@@ -416,10 +418,12 @@ def test_ply_unreferenced_vertex_needs_wedges(tmp_path):
     np.testing.assert_array_equal(read_mesh(tmp_path / "a.ply").corner_uv, uv)
 
 
-def test_ply_big_polygon_has_room_for_its_length(tmp_path):
-    mesh = PolygonMesh(np.random.default_rng(0).random((300, 3)), np.arange(300), np.array([0, 300]))
-    uv = np.full((300, 2), 0.5)
-    uv[:, 0] = np.arange(300)
+@pytest.mark.parametrize("size", [127, 128, 255, 256, 300])
+def test_ply_big_polygon_has_room_for_its_length(tmp_path, size):
+    """A byte counts to 255 corners, or the texture numbers of 127."""
+    mesh = PolygonMesh(np.random.default_rng(0).random((size, 3)), np.arange(size), np.array([0, size]))
+    uv = np.full((size, 2), 0.5)
+    uv[:, 0] = np.arange(size)
     write_mesh(tmp_path / "a.ply", MeshFile(Path("x"), mesh), corner_uv=uv)
     again = read_mesh(tmp_path / "a.ply")
     assert same_mesh(again.mesh, mesh) and np.array_equal(again.corner_uv, uv)
@@ -431,6 +435,47 @@ def test_ply_absurd_counts_are_refused_before_allocation(tmp_path):
         bad = re.sub(rb"element vertex \d+", b"element vertex " + count, data)
         with pytest.raises(FileFormatError, match="can hold"):
             read_mesh(saved(tmp_path, "a.ply", bad))
+    rows = len(data) - data.index(b"end_header\n") - len(b"end_header\n")
+    most = (rows + 1) // 25  # three doubles and a byte each; a last newline may be missing
+    for count in (most, most + 1):
+        bad = re.sub(rb"element vertex \d+", b"element vertex %d" % count, data)
+        with pytest.raises(FileFormatError) as refused:
+            read_mesh(saved(tmp_path, "a.ply", bad))
+        assert ("can hold" in str(refused.value)) == (count > most)
+
+
+@pytest.mark.parametrize("size", [16, 18])
+def test_packed_files_hold_no_more_than_a_mesh_can_be_packed(tmp_path, size):
+    """Blanks are packed into a thousandth: 16 million of them are read, 18 million refused (the bound is 2^24)."""
+    data = OFF + b" " * (size * 10**6)
+    path = saved(tmp_path, "a.off.gz", gzip.compress(data))
+    if size < 2**24 / 1e6:
+        assert len(read_mesh(path).mesh.sizes)
+    else:
+        with pytest.raises(FileFormatError, match=r"a\.off\.gz.*this is no packed mesh"):
+            read_mesh(path)
+
+
+@pytest.mark.parametrize("apart", [[0, 0], [0.25, 0], [0, 0.25], [-0.25, 0.25]])
+def test_corners_share_texture_coordinates_where_both_numbers_are_equal(apart):
+    uv = np.array([[0.5, 0.5], [0.1, 0.2], np.array([0.5, 0.5]) + apart, [0.5, 0.5]])
+    number, example = shared_uv(np.array([1, 0, 1, 1]), uv)
+    np.testing.assert_array_equal(uv[example][number], uv)
+    assert len(example) == (3 if any(apart) else 2) and number[0] == number[3]
+
+
+@pytest.mark.parametrize(("numbers", "told"), [("4 0 0 1 0", "face 1: 4 texture numbers for 3 corners"), ("0", None)])
+def test_ply_texture_numbers_are_two_a_corner_or_none(tmp_path, numbers, told):
+    data = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    data += "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+    data += f"0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 6 0 0 1 0 0 1\n3 1 3 2 {numbers}\n"
+    path = saved(tmp_path, "a.ply", data.encode())
+    if told is None:
+        uv = read_mesh(path).corner_uv
+        np.testing.assert_array_equal(uv, [[0, 0], [1, 0], [0, 1]] + [[np.nan, np.nan]] * 3)
+    else:
+        with pytest.raises(FileFormatError, match=rf"a\.ply.*{told}"):
+            read_mesh(path)
 
 
 def test_ply_index_out_of_range_names_the_face(tmp_path):
@@ -483,6 +528,7 @@ def test_off_by_hand(tmp_path, data):
         (b"5 5 0", b"5 6 0", "line 2"),
         (b"5 5 0", b"5 99999999999999 0", "line 2"),
         (b"5 5 0", b"5.5 5 0", "line 2"),
+        (b"5 5 0", b"5 4.5 0", "line 2"),
         (b"4 3 2 1 0", b"4 3 2 1", "line 9"),
         (b"4 3 2 1 0", b"4 3 2 1 5", "line 9"),
         (b"1 1 0", b"1 1 zero", "line 6"),
@@ -495,7 +541,7 @@ def test_off_by_hand(tmp_path, data):
     ],
 )
 def test_off_refusals(tmp_path, old, new, word):
-    with pytest.raises(FileFormatError, match=word):
+    with pytest.raises(FileFormatError, match=rf"a\.off.*{word}"):  # not in the folder's name, which is the test's
         read_mesh(saved(tmp_path, "a.off", OFF.replace(old, new, 1)))
 
 
@@ -581,6 +627,7 @@ def test_npz_of_others(tmp_path):
         (dict(V=np.eye(3), F=[[0, 1, 3]]), "face 0"),
         (dict(V=np.eye(3), corners=[0, 1, 2], starts=[0, 2]), "starts"),
         (dict(V=np.eye(3), corners=[0, 1, 2], starts=[0, 5, 3]), "starts"),
+        (dict(V=np.eye(3), corners=[0, 0, 1, 2], starts=[1, 4]), "starts"),
         (dict(V=np.eye(3), F=[[0, 1, 2]], uv=np.zeros((2, 2))), "rows"),
         (dict(V=np.eye(3) * 1j, F=[[0, 1, 2]]), "real"),
         (dict(V=np.array([None]), F=[[0, 1, 2]]), "real"),
@@ -588,7 +635,7 @@ def test_npz_of_others(tmp_path):
 )
 def test_npz_refusals(tmp_path, arrays, word):
     np.savez(tmp_path / "a.npz", **arrays)
-    with pytest.raises(FileFormatError, match=word):
+    with pytest.raises(FileFormatError, match=rf"a\.npz.*{word}"):
         read_mesh(tmp_path / "a.npz")
 
 

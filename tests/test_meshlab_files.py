@@ -12,7 +12,7 @@ try:
 except ImportError:
     pytest.skip("pymeshlab is not installed", allow_module_level=True)
 
-from meshes import octahedron
+from meshes import octahedron, plate
 from meshlab_sets import loaded, mesh_set
 from polygon_shapes import grid
 
@@ -144,3 +144,12 @@ def test_checker_is_a_checker(tmp_path: Path):
     bright = pixels.sum(axis=2)[4::8, 4::8]  # the middles of the squares
     row, column = np.indices(bright.shape)
     assert bright[(row + column) % 2 == 0].min() > 1.5 * bright[(row + column) % 2 == 1].max()
+
+
+@pytest.mark.parametrize("keep", [False, True])
+def test_the_mesh_itself_is_replaced_whether_images_are_kept_or_not(keep, tmp_path):
+    for columns in (2, 5):
+        ms = mesh_set(*plate(columns, 3))
+        compute_texcoord_parametrization_conformal_disk(ms, method="linear")
+        save_textured_mesh(ms, tmp_path / "a.obj", keep_images=keep)
+    assert loaded(tmp_path / "a.obj").face_number() == 2 * 5 * 3

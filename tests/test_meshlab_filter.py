@@ -18,6 +18,7 @@ import conformal_uv as cuv
 from conformal_uv.samples import mask
 from meshlab_filter import ConformalFilterException
 from meshlab_filter import compute_texcoord_parametrization_conformal_disk as conformal_disk
+from meshlab_filter.current_mesh import read_current_mesh
 
 
 @pytest.fixture
@@ -193,3 +194,17 @@ def test_a_hole_is_filled_for_the_solution_only():
     assert numbers["mapped_faces"] == len(F) == ms.current_mesh().face_number()
     outer = ms.current_mesh().vertex_tex_coord_matrix()[12:] - 0.5
     np.testing.assert_allclose(np.hypot(*outer.T), 0.5, rtol=1e-6)  # on the circle, in float32
+
+
+def test_a_polygon_is_selected_by_all_of_its_triangles(tmp_path):
+    """Six quads, of the first of which one of two triangles is selected, of the second both."""
+    V, Q = grid(3, 2)
+    text = "".join("v {:.17g} {:.17g} {:.17g}\n".format(*v) for v in V)
+    (tmp_path / "quads.obj").write_text(text + "".join("f {} {} {} {}\n".format(*(q + 1)) for q in Q))
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(tmp_path / "quads.obj"))
+    polygon = read_current_mesh(ms).wedges.polygon
+    chosen = [np.flatnonzero(polygon == 0)[0], *np.flatnonzero(polygon == 1)]
+    ms.compute_selection_by_condition_per_face(condselect=" || ".join(f"fi == {f}" for f in chosen))
+    assert ms.current_mesh().face_selection_array().sum() == 3
+    assert read_current_mesh(ms).selected_polygons().tolist() == [False, True, False, False, False, False]

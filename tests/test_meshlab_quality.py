@@ -102,3 +102,17 @@ def test_crowding_that_float32_can_not_hold_is_counted():
     flat = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] <= 0  # float32 differences and products are exact in doubles
     assert numbers["lost_to_float32"] == flat.sum() > 0
     assert conformal_disk(mesh_set(*fan(5)))["lost_to_float32"] == 0
+
+
+def test_faces_that_are_not_mapped_keep_their_quality():
+    V, F = plate(6, 6)
+    ms = mesh_set(V, F)
+    old = ms.current_mesh().face_scalar_array().copy()
+    ms.compute_selection_by_condition_per_face(condselect="x0 + x1 + x2 < 8")
+    selected = ms.current_mesh().face_selection_array()
+    conformal_disk(ms, selected_only=True, quality="angle", method="linear")
+    now = ms.current_mesh().face_scalar_array()
+    assert old[~selected].any()
+    np.testing.assert_array_equal(now[~selected], old[~selected])
+    (chart,) = cuv.unwrap(V, F, selection=selected, method="linear").charts
+    np.testing.assert_allclose(now[chart.polygon], chart.distortion.angle_error.mean(axis=1), rtol=1e-5, atol=1e-6)

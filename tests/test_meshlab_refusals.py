@@ -128,3 +128,19 @@ def test_options_and_their_defaults_are_those_of_unwrap():
     assert core.keys() - shared == {
         "V", "polygons", "selection", "rotation", "tolerance", "relative_tolerance", "max_iterations", "outer_loop"
     }  # fmt: skip
+
+
+def test_every_option_arrives_with_its_value(monkeypatch):
+    arrived = {}
+
+    class Found:
+        numbers = {}
+
+    def taken(ms, **options):
+        arrived.update(options)
+        return Found
+
+    monkeypatch.setattr("meshlab_filter.disk.map_current_mesh", taken)
+    given = {name: object() for name in inspect.signature(conformal_disk).parameters if name != "ms"}
+    conformal_disk(None, **given)
+    assert arrived == given

@@ -21,7 +21,9 @@ from meshes import disjoint, plate, tetrahedron
 from meshlab_sets import loaded
 
 import conformal_uv as cuv
+from conformal_uv.console.stages import Stages
 from conformal_uv.samples import mask
+from meshlab_filter.conversion import Conversion, convert
 
 
 def run(*arguments: object, code: int = 0) -> subprocess.CompletedProcess[str]:
@@ -232,3 +234,16 @@ def test_never_in_one_process_with_bpy():
     done = python(code + "print('imported'); meshlab_filter.register()")
     assert done.stdout == "imported\n" and "bpy can not share a process" in done.stderr
     assert "pymeshlab" not in python(code + "print([m for m in sys.modules if 'pymeshlab' in m])").stdout
+
+
+def test_the_layers_of_a_file_become_charts_of_one_mesh(tmp_path: Path) -> None:
+    """pymeshlab loads each mesh of a GLB as a layer of its own."""
+    trimesh = pytest.importorskip("trimesh")
+    parts = [trimesh.Trimesh(*plate(3, 3)), trimesh.Trimesh(*plate(4, 2)).apply_translation([9, 0, 0])]
+    trimesh.Scene(parts).export(tmp_path / "two.glb")
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(tmp_path / "two.glb"))
+    assert ms.mesh_number() == 2
+    told = convert(tmp_path / "two.glb", tmp_path / "one.obj", Conversion(), Stages(quiet=True))
+    assert told["mesh"]["triangles"] == 2 * (9 + 8) and len(told["charts"]) == 2
+    assert loaded(tmp_path / "one.obj").face_number() == 2 * (9 + 8)

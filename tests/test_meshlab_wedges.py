@@ -45,3 +45,10 @@ def test_triangles_are_their_own_polygons():
     wedges = triangle_wedges(F)
     np.testing.assert_array_equal(wedges.corners[wedges.corner].reshape(-1, 3), F)
     np.testing.assert_array_equal(wedges.starts, 3 * np.arange(len(F) + 1))
+
+
+def test_a_polygon_without_triangles_is_none_of_this_mesh():
+    F = np.array([[0, 1, 2], [0, 2, 3]])
+    square, other = np.array([0, 1, 2, 3], dtype=np.uint32), np.array([4, 5, 6], dtype=np.uint32)
+    assert wedges_of_polygons(F, [square], 7) is not None
+    assert wedges_of_polygons(F, [square, other], 7) is None

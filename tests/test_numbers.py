@@ -142,3 +142,11 @@ def test_energy_of_a_folded_sphere_is_the_solver_s() -> None:
 def test_backend_of_the_augmented_lagrangian() -> None:
     V, F = mask(200)
     assert cuv.disk_map(V, F, method="augmented-lagrangian", max_iterations=1).backend == "superlu"
+
+
+@pytest.mark.parametrize(("surface", "image", "scale"), [(1e-300, 1e300, np.inf), (1e300, 1e-300, 0.0)])
+def test_areas_that_no_double_can_compare(surface: float, image: float, scale: float) -> None:
+    """The quotient of the units has no double either; angles are what they are, and nothing warns."""
+    V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), [[0, 1, 2]]
+    d = cuv.distortion(surface * V, F, image * V[:, :2])
+    assert d.area_scale.tolist() == [scale] and d.angle_max == pytest.approx(0.0, abs=1e-13)

@@ -84,3 +84,16 @@ def test_remedies_of_charts_name_values_that_are_taken() -> None:
 def test_the_first_spelling_of_center_is_still_taken() -> None:
     assert options.Normalization.of("normalization", "centre") is options.Normalization.CENTER
     assert "centre" not in list(options.Normalization)
+
+
+def test_an_error_is_told_in_the_numbers_of_another_mesh() -> None:
+    """Faces that were cut into triangles, vertices of which some were left out: both named, each in its own."""
+    faces, vertices = [4, 4, 9, 9], [1, 3, 5, 7]
+    error = cuv.DegenerateFaceError("3 faces have no area: faces 0, 1, 3.", [0, 1, 3])
+    other = error.renumbered(faces, vertices)
+    assert type(other) is cuv.DegenerateFaceError and other.indices == (4, 9)
+    assert str(other) == "2 faces have no area: faces 4, 9."
+    named = cuv.NonManifoldError("1 vertices join pieces: vertices 2. Split them.", [2]).renumbered(faces, vertices)
+    assert named.indices == (5,) and str(named) == "1 vertices join pieces: vertices 5. Split them."
+    plain = cuv.TopologyError("The surface is closed.")
+    assert plain.renumbered(faces, vertices) is plain

@@ -39,3 +39,17 @@ def test_a_triangle_in_a_plane_with_the_origin_has_no_sign() -> None:
     x = np.array([[1.0, 0, 0], [0, 1.0, 0], [-1.0, 0, 0], [0, 0, 1.0]])
     corners = np.array([[0, 0], [1, 1], [2, 3]], dtype=np.int32)
     np.testing.assert_array_equal(outward_signs(x, corners), [0, 1])
+
+
+def test_signs_of_large_triangles_that_all_but_hold_the_origin() -> None:
+    """Corners on a great circle but for their rounding, where the rounded determinant has the wrong sign of many."""
+    rng = np.random.default_rng(1)
+    a, b = rng.normal(size=(2, 400, 3))
+    a, b = (p / np.linalg.norm(p, axis=1, keepdims=True) for p in (a, b))
+    c = rng.normal(size=(400, 1)) * a + rng.normal(size=(400, 1)) * b
+    c /= np.linalg.norm(c, axis=1, keepdims=True)
+    expected = determinant_signs(np.concatenate((a, b, c)), np.arange(1200).reshape(3, -1))
+    rounded = np.sign(np.einsum("ij,ij->i", a, np.cross(b - a, c - a)))
+    assert np.count_nonzero(rounded != expected) > 20
+    corners = np.arange(1200, dtype=np.int32).reshape(3, -1)
+    np.testing.assert_array_equal(outward_signs(np.concatenate((a, b, c)), corners), expected)

@@ -36,6 +36,33 @@ def test_numbers_against_the_arrays_they_sum_up() -> None:
     assert numbers.conformal_energy == sum(chart.map.conformal_energy for chart in result.charts)
 
 
+def test_charts_that_are_not_chosen_lose_nothing() -> None:
+    """A ribbon fifty times as long as wide is crowded beyond single precision at its ends."""
+    result = cuv.unwrap(*plate(100, 2), method="linear", repair="never")
+    assert unwrap_numbers(result).lost_to_float32.sum() > 0
+    assert unwrap_numbers(result, chosen=np.array([False])).lost_to_float32.tolist() == [0]
+
+
+def test_the_ratio_of_areas_is_that_of_triangles_that_have_some() -> None:
+    """Three triangles at a corner: mapped to four times the area, to itself, to a line."""
+    V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0.0]])
+    F = [[0, 1, 2], [0, 2, 3], [0, 3, 4]]
+    image = V[:, :2] * [[1, 1], [4, 1], [1, 1], [1, 1], [0, 0]]
+    assert distortion_numbers([cuv.distortion(V, F, image)]).area_ratio == pytest.approx(4.0, rel=1e-15)
+    flat = distortion_numbers([cuv.distortion(V, F[2:], image)])
+    assert flat.area_ratio is None and flat.quasi_conformal_max == np.inf
+
+
+def test_vertices_of_several_charts_count_once() -> None:
+    """A plate of 6 x 5 quads cut in two along a grid line: the caller's vertices, however many charts have them."""
+    V, F = plate(6, 5)
+    line = np.flatnonzero(V[:, 0] == V[3, 0])
+    result = cuv.unwrap(V, F, seams=np.column_stack((line[:-1], line[1:])), method="linear", place="disk")
+    numbers = unwrap_numbers(result)
+    assert numbers.charts == 2 and sum(len(chart.vertices) for chart in result.charts) == len(V) + len(line)
+    assert numbers.vertices == len(V) and numbers.triangles == len(F)
+
+
 def test_some_charts_and_none() -> None:
     result = cuv.unwrap(*TWO, method="linear")
     one = unwrap_numbers(result, chosen=np.array([True, False]))

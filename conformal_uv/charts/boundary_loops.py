@@ -115,8 +115,8 @@ def zipped(surface: CutSurface, found: BoundaryLoops, inner: NDArray[np.bool_], 
     across = partner[found.side]
     tail, head = surface.vertex[found.side], surface.vertex[surface.follow[found.side]]
     across = np.where(inner[found.loop] & (across >= 0), place[np.maximum(across, 0)], -1)
-    # Sides that can be joined: cut from each other, in one loop, running opposite ways.
-    fits = (across >= 0) & (found.loop[across] == found.loop) & (tail[across] == head) & (head[across] == tail)
+    # Sides that can be joined: cut from each other, running opposite ways. From a tip on they are in one loop.
+    fits = (across >= 0) & (tail[across] == head) & (head[across] == tail)
     if not fits.any():
         return surface
     following, preceding = found.following.copy(), np.empty_like(found.following)

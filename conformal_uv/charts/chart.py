@@ -49,6 +49,13 @@ class Chart:
         What was mended, cut, filled or left unused.
     placement : Placement
         Center and scale of the disk in the texture.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> (chart,) = cuv.unwrap([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]]).charts
+    >>> chart.status, chart.faces.tolist(), chart.F.tolist(), chart.scale
+    ('mapped', [0], [[0, 1, 2], [0, 2, 3]], 0.5)
     """
 
     faces: NDArray[np.int64]
@@ -96,6 +103,13 @@ class Unwrapped:
         Polygons whose corners have coordinates.
     charts : list of Chart
         In the order of their first polygons.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> u = cuv.unwrap([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]], rotation=0.0)
+    >>> u.uv.shape, u.mapped.tolist(), bool((u.uv >= 0.0).all() and (u.uv <= 1.0).all())
+    ((4, 2), [True], True)
     """
 
     uv: NDArray[np.float64]

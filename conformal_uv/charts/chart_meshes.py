@@ -86,13 +86,13 @@ class ChartMeshes:
         faces = slice(self.first_face[chart], self.first_face[chart + 1])
         solved = slice(self.first_solved[chart], self.first_solved[chart + 1])
         return ChartMesh(
-            self.V[vertices],
-            self.vertex_of_site[self.site[own]],
-            self.F[faces],
-            self.polygon[faces],
-            self.corner[faces],
-            self.solved[solved],
-            self.solved_polygon[solved],
+            V=self.V[vertices],
+            vertices=self.vertex_of_site[self.site[own]],
+            F=self.F[faces],
+            polygon=self.polygon[faces],
+            corner=self.corner[faces],
+            solved=self.solved[solved],
+            solved_polygon=self.solved_polygon[solved],
         )
 
     def weights(self) -> Ints:
@@ -131,19 +131,19 @@ def chart_meshes(mesh: PolygonMesh, surface: CutSurface, count: int) -> ChartMes
     scale = max(float(np.abs(surface.V).max()), float(np.finfo(float).tiny))
     double = triangle_geometry(surface.V / scale, np.ascontiguousarray(F.T.astype(np.int32))).double_area
     return ChartMeshes(
-        V[order],
-        order,
-        number[T[by_chart]],
-        polygon[by_chart],
-        corner_of[by_chart],
-        number[solved[by_chart_solved]],
-        solved_polygon[by_chart_solved],
-        surface.vertex_of_site,
-        first_vertex,
-        first_vertex[:-1] + own,
-        first_face,
-        first_solved,
-        0.5 * np.bincount(surface.chart[polygon], double, minlength=count).astype(np.float64),
+        V=V[order],
+        site=order,
+        F=number[T[by_chart]],
+        polygon=polygon[by_chart],
+        corner=corner_of[by_chart],
+        solved=number[solved[by_chart_solved]],
+        solved_polygon=solved_polygon[by_chart_solved],
+        vertex_of_site=surface.vertex_of_site,
+        first_vertex=first_vertex,
+        first_virtual=first_vertex[:-1] + own,
+        first_face=first_face,
+        first_solved=first_solved,
+        area=0.5 * np.bincount(surface.chart[polygon], double, minlength=count).astype(np.float64),
     )
 
 

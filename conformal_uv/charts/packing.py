@@ -26,7 +26,15 @@ GROWTH = 1.02  # of the square's side from one try to the next
 
 @dataclass(frozen=True)
 class Placement:
-    """A chart's disk in the texture: ``uv = center + scale * (position in the unit disk)``."""
+    """A chart's disk in the texture: ``uv = center + scale * (position in the unit disk)``.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> from conformal_uv.samples import mask
+    >>> cuv.unwrap(*mask(200), margin=0.1).charts[0].placement
+    Placement(center=(0.5, 0.5), scale=0.4)
+    """
 
     center: tuple[float, float] = (0.0, 0.0)
     scale: float = 1.0

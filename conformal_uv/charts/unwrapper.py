@@ -153,17 +153,17 @@ class Unwrapper:
             polygon = split.selected[meshes.polygon[meshes.first_face[number] : meshes.first_face[number + 1]]]
             charts.append(
                 Chart(
-                    faces[first[number] : first[number + 1]],
-                    solution.error,
-                    solution.map,
-                    mesh.vertices,
-                    mesh.F,
-                    polygon,
-                    split.corner[mesh.corner],
-                    self._flipped(solution, mesh),
-                    split.notes.get(number, []) + solution.notes,
-                    placed[number],
-                    mesh,
+                    faces=faces[first[number] : first[number + 1]],
+                    error=solution.error,
+                    map=solution.map,
+                    vertices=mesh.vertices,
+                    F=mesh.F,
+                    polygon=polygon,
+                    corner=split.corner[mesh.corner],
+                    flipped=self._flipped(solution, mesh),
+                    notes=split.notes.get(number, []) + solution.notes,
+                    placement=placed[number],
+                    mesh=mesh,
                 )
             )
         return charts

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import FileFormatError, OptionError
 from ..files import MeshFile
-from ..mesh.polygons import PolygonMesh
+from ..mesh.polygon_sides import following_corners
 
 __all__ = ["read_seams"]
 
@@ -44,7 +44,7 @@ def _torn_edges(mesh_file: MeshFile) -> NDArray[np.int64]:
     if uv is None:
         raise OptionError(f"--seams uv: {mesh_file.path} has no UVs to read seams from.")
     corner = np.arange(len(mesh.corners))
-    following = _following(mesh)
+    following = following_corners(mesh)
     tail, head = mesh.corners, mesh.corners[following]
     turned = tail > head
     low, high = np.where(turned, head, tail), np.where(turned, tail, head)
@@ -55,10 +55,3 @@ def _torn_edges(mesh_file: MeshFile) -> NDArray[np.int64]:
     first, second = order[:-1][same], order[1:][same]
     torn = (at_low[first] != at_low[second]).any(axis=1) | (at_high[first] != at_high[second]).any(axis=1)
     return np.column_stack((low[first[torn]], high[first[torn]]))
-
-
-def _following(mesh: PolygonMesh) -> NDArray[np.int64]:
-    """The next corner of each corner within its polygon."""
-    following = np.arange(1, len(mesh.corners) + 1)
-    following[mesh.starts[1:] - 1] = mesh.starts[:-1]
-    return following

@@ -73,6 +73,8 @@ def _array(path: Path, archive: Mapping[str, NDArray[Any]], name: str) -> NDArra
         array = archive[name]
     except MemoryError as error:
         raise FileFormatError(f"{path}: {name!r} claims more numbers than fit into memory; {DAMAGED}") from error
+    except ValueError as error:  # objects, or no header
+        raise FileFormatError(f"{path}: {name!r}: {error}; save plain arrays of real numbers") from error
     if array.dtype.kind not in "iuf":
         raise FileFormatError(f"{path}: {name!r} holds {array.dtype}, not real numbers; save plain numpy arrays")
     return array

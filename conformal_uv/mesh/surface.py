@@ -44,6 +44,13 @@ class Surface:
         Number of connected components.
     unit : float
         Length of one unit of V in the units of the positions as given.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> surface = cuv.Surface.from_arrays([[0, 0, 0], [3, 0, 0], [0, 3, 0]], [[0, 1, 2]])
+    >>> surface.n, surface.euler_characteristic, surface.require_disk().tolist(), surface.unit
+    (3, 1, [0, 1, 2], 4.0)
     """
 
     V: NDArray[np.float64]

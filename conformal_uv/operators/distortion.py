@@ -36,6 +36,14 @@ class Distortion:
         Area of the image over area of the face, not negative; infinite where the face has none.
     flipped : (k,) int64
         Faces whose image has non-positive signed area.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    >>> d = cuv.distortion(V, [[0, 1, 2]], [[0, 0], [0, 3], [1, 0]])  # mirrored, and three times as long one way
+    >>> d.quasi_conformal.round(12).tolist(), d.area_scale.tolist(), d.flipped.tolist()
+    ([3.0], [3.0], [0])
     """
 
     angle_error: NDArray[np.float64]
