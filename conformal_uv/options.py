@@ -19,6 +19,7 @@ from .errors import OptionError, listed
 
 __all__ = [
     "Backend",
+    "ChartOptions",
     "Choice",
     "Closed",
     "CornerChoice",
@@ -543,6 +544,25 @@ class ShapeOptions:
         if len(self.shape) != count:
             raise OptionError(f"{len(self.shape)} shapes for {count} charts; pass one for all, or one for each.")
         return list(self.shape)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ChartOptions:
+    """What becomes of charts: all that `unwrap` takes but how they are split and where they go."""
+
+    shape: ShapeOptions
+    disk: DiskOptions
+    rotation: float = 0.0
+
+    @property
+    def free(self) -> FreeOptions:
+        """Of charts with a free boundary."""
+        return FreeOptions(refine=self.shape.refine, repair=self.disk.repair)
+
+    @property
+    def rectangle(self) -> RectangleOptions:
+        """Of charts that become rectangles."""
+        return RectangleOptions(corner_choice=self.shape.corner_choice, repair=self.disk.repair)
 
 
 def _flag(name: str, value: object) -> bool:

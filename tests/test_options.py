@@ -33,6 +33,7 @@ def test_choices_are_their_names() -> None:
         (options.DiskOptions, cuv.unwrap, set()),
         (options.SplitOptions, cuv.unwrap, set()),
         (options.PlaceOptions, cuv.unwrap, set()),
+        (options.ShapeOptions, cuv.unwrap, set()),
         (options.SphereOptions, cuv.sphere_map, {"relative_tolerance"}),
         (options.FreeOptions, cuv.free_map, set()),
         (options.RectangleOptions, cuv.rectangle_map, set()),

@@ -10,10 +10,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk import DiskMap
 from ..errors import ConformalUVError, Remedy, listed
 from ..operators import Distortion, distortion
 from ..operators.orientation_sign import orientation_signs
+from .chart_mapper import ShapeMap
 from .chart_meshes import ChartMesh
 from .packing import Placement
 
@@ -32,9 +32,9 @@ class Chart:
         The caller's polygons.
     error : ConformalUVError or None
         Why the chart was not mapped; indices in it are the caller's.
-    map : DiskMap or None
+    map : DiskMap, FreeMap, RectangleMap or None
         In the chart's own vertices; rows of ``map.uv`` beyond ``len(vertices)`` are virtual vertices in the middle
-        of filled holes. Neither turned by `rotation` nor placed.
+        of filled holes. Disks are turned upright and by `rotation` there; nothing is placed.
     vertices : (n,) int64
         The caller's vertex of each chart vertex; a vertex on both sides of a cut stands twice.
     F : (m, 3) int64
@@ -60,7 +60,7 @@ class Chart:
 
     faces: NDArray[np.int64]
     error: ConformalUVError | None
-    map: DiskMap | None
+    map: ShapeMap | None
     vertices: NDArray[np.int64]
     F: NDArray[np.int64]
     polygon: NDArray[np.int64]

@@ -1,4 +1,4 @@
-"""One chart mapped to the unit disk, its errors told in the caller's numbers."""
+"""One chart mapped to its shape, its errors told in the caller's numbers."""
 
 from __future__ import annotations
 
@@ -9,26 +9,38 @@ from numpy.typing import NDArray
 
 from ..disk import DiskMap, DiskMapper
 from ..errors import ConformalUVError, DegenerateFaceError, MeshError, Remedy, SolverError, listed
+from ..free import FreeMap, mapped_free
+from ..operators.factorized_disk import FactorizedDisk
 from ..operators.wirtinger import planar_sides, signed_double_areas
-from ..options import DiskOptions, Laplacian
-from ..progress import Callback
+from ..options import ChartOptions, Laplacian, Shape
+from ..progress import Callback, Progress
+from ..rectangle import RectangleMap, mapped_rectangle
 from .chart_meshes import ChartMesh
 from .named_vertices import NamedVertices, vertices_used
+from .upright import upright_turn
 
-__all__ = ["ChartMapper", "ChartSolution"]
+__all__ = ["ChartMapper", "ChartSolution", "ShapeMap"]
+
+ShapeMap = DiskMap | FreeMap | RectangleMap
+Used = dict[str, NDArray[np.int64]]
+Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
 class ChartSolution:
-    """The map of a chart or the error; `z` (n,) positions of its own vertices, `signed` twice the image's area of
-    its own triangles (m,), `used` the caller's vertices that its options took."""
+    """The map of a chart or the error.
 
-    map: DiskMap | None
+    `z` (n,) are positions of its own vertices, turned upright: in the unit disk, of other shapes in the middle of the
+    square [-1, 1]^2 that they fill one way; `signed` is twice the image's area of its own triangles (m,) there, `used`
+    are the caller's vertices that its options took.
+    """
+
+    map: ShapeMap | None
     error: ConformalUVError | None
     notes: list[str]
     z: NDArray[np.complex128]
     signed: NDArray[np.float64]
-    used: dict[str, NDArray[np.int64]] = field(default_factory=dict)
+    used: Used = field(default_factory=dict)
 
 
 class ChartMapper:
@@ -48,33 +60,77 @@ class ChartMapper:
     ) -> None:
         self.mesh, self._name, self._error = mesh, name, error
         self._laplacian, self._backend = laplacian, backend
-        self._mapper: DiskMapper | None = None
+        self._factorized: FactorizedDisk | None = None
+        self._disk: DiskMapper | None = None
 
-    def solve(self, options: DiskOptions, vertices: NamedVertices, callback: Callback | None) -> ChartSolution:
+    def solve(
+        self,
+        shape: Shape,
+        options: ChartOptions,
+        vertices: NamedVertices,
+        callback: Callback | None,
+    ) -> ChartSolution:
         """Map the chart; what is wrong with the chart comes back as its error.
 
         Raises
         ------
         OptionError, MissingDependencyError, CancelledError
         """
-        if self._error is None:
-            try:
-                return self._solution(options, vertices, callback)
-            except (MeshError, SolverError) as error:
-                return _failed(self._told(error))
-        return _failed(self._error)
+        if self._error is not None:
+            return _failed(self._error)
+        try:
+            found, used, notes = self._mapped(shape, options, vertices, callback)
+        except (MeshError, SolverError) as error:
+            return _failed(self._told(error))
+        z = self._framed(found, shape, options, fixed=bool(len(used["pins"])))
+        signed = signed_double_areas(planar_sides(z, self.mesh.F.T.astype(np.int32)))
+        return ChartSolution(map=found, error=None, notes=notes, z=z, signed=signed, used=used)
 
-    def _solution(self, options: DiskOptions, vertices: NamedVertices, callback: Callback | None) -> ChartSolution:
-        mesh = self.mesh
-        if self._mapper is None:
-            self._mapper = DiskMapper(
-                mesh.V, mesh.solved, laplacian=self._laplacian, backend=self._backend, callback=callback
+    def _mapped(
+        self, shape: Shape, options: ChartOptions, vertices: NamedVertices, callback: Callback | None
+    ) -> tuple[ShapeMap, Used, list[str]]:
+        """The map, the caller's vertices that it used, and what is to be said."""
+        factorized, own = self._checked(callback), self.mesh.vertices
+        if shape is Shape.FREE:
+            notes = vertices.of_free(own)
+            free = mapped_free(factorized, options.free, Progress(callback))
+            if len(free.crossings):
+                notes.append(f"its boundary crosses itself {len(free.crossings)} times")
+            return free, vertices_used(options.free, own), notes
+        if shape is Shape.RECTANGLE:
+            rectangle, notes = vertices.of_rectangle(options.rectangle, own, factorized.boundary)
+            return mapped_rectangle(factorized, rectangle, Progress(callback)), vertices_used(rectangle, own), notes
+        if self._disk is None:
+            self._disk = DiskMapper.of(factorized)
+        disk, notes = vertices.of_disk(options.disk, own, factorized.boundary)
+        fixed = disk.needs_pins or disk.boundary_vertex is not None
+        found = self._disk.solved(disk, callback, lambda z: self._turn(z, factorized.boundary, shape, options, fixed))
+        return found, vertices_used(disk, own), notes
+
+    def _checked(self, callback: Callback | None) -> FactorizedDisk:
+        if self._factorized is None:
+            self._factorized = FactorizedDisk(
+                self.mesh.V, self.mesh.solved, laplacian=self._laplacian, backend=self._backend, callback=callback
             )
-        own, notes = vertices.of_chart(options, mesh.vertices, self._mapper.boundary)
-        found = self._mapper.solved(own, callback)
-        z = np.ascontiguousarray(found.uv).view(np.complex128).reshape(-1)[: len(mesh.vertices)]
-        signed = signed_double_areas(planar_sides(z, mesh.F.T.astype(np.int32)))
-        return ChartSolution(found, None, notes, z, signed, vertices_used(own, mesh.vertices))
+        return self._factorized
+
+    def _turn(self, z: Complex, loop: NDArray[np.int64], shape: Shape, options: ChartOptions, fixed: bool) -> complex:
+        """What positions are multiplied by to be upright, if nothing is `fixed`, and then turned as asked for."""
+        mesh, turn = self.mesh, complex(np.exp(1j * options.rotation)) if options.rotation else 1.0
+        if fixed:
+            return turn
+        n = len(mesh.vertices)
+        return turn * upright_turn(mesh.V[:n], mesh.F, z[:n], loop, shape, options.shape.upright)
+
+    def _framed(self, found: ShapeMap, shape: Shape, options: ChartOptions, *, fixed: bool) -> Complex:
+        """Positions of the chart's own vertices; of other shapes than disks turned, and in their square."""
+        z: Complex = np.ascontiguousarray(found.uv).view(np.complex128).reshape(-1)[: len(self.mesh.vertices)]
+        if shape is Shape.DISK:
+            return z
+        z = z * self._turn(z, found.boundary, shape, options, fixed)
+        low, high = complex(z.real.min(), z.imag.min()), complex(z.real.max(), z.imag.max())
+        side = max((high - low).real, (high - low).imag)
+        return (z - 0.5 * (low + high)) * (2.0 / side) if side > 0.0 else z - low
 
     def _told(self, error: ConformalUVError) -> ConformalUVError:
         """The error with the caller's polygons for the chart's triangles.

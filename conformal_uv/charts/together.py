@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..operators import face_areas
+from ..operators.wirtinger import planar_sides, signed_double_areas
 from ..options import Place
 from .chart import Chart, Unwrapped
 from .packing import placements
@@ -53,7 +54,7 @@ def pack_together(
     charts = [(number, chart) for number, chart in _chosen(results, wanted)]
     area = np.array([face_areas(chart.mesh.V, chart.F).sum() for _, chart in charts])
     largest = float(area.max(initial=0.0))
-    image = np.array([_image_area(chart) for _, chart in charts])
+    image = np.array([_image_area(chart, results[number].uv) for number, chart in charts])
     placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, image)
     out = [result.uv.copy() for result in results]
     for (number, chart), place in zip(charts, placed, strict=True):
@@ -71,6 +72,6 @@ def _chosen(results: Sequence[Unwrapped], wanted: Sequence[NDArray[np.bool_]]) -
     ]
 
 
-def _image_area(chart: Chart) -> float:
-    assert chart.map is not None
-    return float(face_areas(chart.map.uv[: len(chart.vertices)], chart.F).sum())
+def _image_area(chart: Chart, uv: NDArray[np.float64]) -> float:
+    z = np.ascontiguousarray(uv).view(np.complex128).reshape(-1)
+    return 0.5 * float(np.abs(signed_double_areas(planar_sides(z, chart.corner.T.astype(np.int32)))).sum())

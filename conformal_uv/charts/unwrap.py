@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from numpy.typing import ArrayLike
 
 from ..progress import Callback
@@ -18,6 +20,10 @@ def unwrap(
     *,
     seams: ArrayLike | None = None,
     selection: ArrayLike | None = None,
+    shape: str | Sequence[str] = "disk",
+    upright: str = "z",
+    refine: bool = False,
+    corner_choice: str = "turning",
     method: str = "auto",
     objective: str | None = None,
     pins: Vertices = None,
@@ -40,7 +46,7 @@ def unwrap(
     margin: float | None = None,
     callback: Callback | None = None,
 ) -> Unwrapped:
-    """Split a polygon mesh into charts and map each conformally onto a disk.
+    """Split a polygon mesh into charts and map each conformally onto a disk, or to another shape.
 
     Charts are the parts of the selected polygons that hang together across edges which are not seams. What is
     wrong with one chart is that chart's error and leaves the others alone. Polygons are never split between
@@ -57,16 +63,28 @@ def unwrap(
         are filled.
     selection : (p,) bool or polygon indices, optional
         Polygons to map, by default all.
-    method, objective, pin_mode, tolerance, relative_tolerance, max_iterations, laplacian, repair, backend
+    shape : {"disk", "free", "rectangle"} or one of them for each chart
+        What charts become: the unit disk, their own outline (`free_map`), or a rectangle (`rectangle_map`).
+    upright : {"z", "y", "none"}
+        The axis of the surface that points up in the texture, in the mean over each chart. A chart that lies flat has
+        the next axis up (y; for "y" it is -z), and with a free boundary its straight sides along the square's.
+        Rectangles are turned by quarters; charts with pins or a boundary vertex are not turned.
+    refine : bool
+        As in `free_map`, for charts with a free boundary.
+    corner_choice : {"turning", "area"}
+        As in `rectangle_map`, for charts that become rectangles.
+    method, objective, pin_mode, tolerance, relative_tolerance, max_iterations, laplacian, backend
         As in `disk_map`.
+    repair
+        As in `disk_map`, for all shapes.
     pins : vertices or triples of vertices, optional
-        A chart takes those on its boundary, which must be exactly three, in the order of its boundary from the one
-        named first; a note tells where that is another order. A set of pins is an offer: charts with another number
-        of them on their boundary are not pinned and say so in their notes.
+        A chart takes those on its boundary, which must be exactly three, or four as the corners of a rectangle, in the
+        order of its boundary from the one named first; a note tells where that is another order. A set of pins is an
+        offer: charts with another number of them on their boundary are not pinned and say so in their notes.
     center, boundary_vertex : vertices, optional
         Each is used by the chart in whose interior, or on whose boundary, it lies; of several in one chart the first.
     rotation : float
-        Radians, anticlockwise; every disk is turned by it about its center at the end.
+        Radians, anticlockwise; every chart is turned by it about its center at the end.
     holes : {"fill", "refuse"}
         What to do with all boundary loops but one: fill them for the solution only, or refuse.
     outer_loop : vertices, optional
@@ -81,8 +99,8 @@ def unwrap(
         Polygons wound against their neighbours: refuse, or turn the smaller part for the solution and cut
         one-sided charts.
     place : {"fit", "pack", "disk"}
-        "disk": every chart on the unit disk. "fit" and "pack": in the unit square; one chart fills it, several
-        are packed, their areas in the same proportion as on the surface.
+        "disk": every chart on the unit disk, other shapes in the middle of [-1, 1]^2. "fit" and "pack": in the unit
+        square; one chart fills it, several are packed, their areas in the same proportion as on the surface.
     margin : float, optional
         Least distance between disks and to the sides of the square, by default 0.005 between several and none about
         one, which then lies at 0.5 + 0.5 (x, y); with very many charts, a quarter of a chart's
@@ -132,6 +150,10 @@ def unwrap(
         callback=callback,
     )
     return unwrapper.unwrap(
+        shape=shape,
+        upright=upright,
+        refine=refine,
+        corner_choice=corner_choice,
         method=method,
         objective=objective,
         pins=pins,

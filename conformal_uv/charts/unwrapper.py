@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..linear.backends import choose_backend
-from ..options import DiskOptions, Laplacian, Place, PlaceOptions, SplitOptions
+from ..options import ChartOptions, DiskOptions, Laplacian, Place, PlaceOptions, ShapeOptions, SplitOptions
 from ..progress import Callback
 from .arguments import Polygons, polygon_mesh, seam_pairs, selected_polygons, used_vertices, vertex_list
 from .chart import Chart, Unwrapped
@@ -24,6 +25,7 @@ from .splitting import split_into_charts
 __all__ = ["Unwrapper"]
 
 Vertices = int | Iterable[Any] | None
+SHAPES = fields(ShapeOptions)
 
 
 class Unwrapper:
@@ -84,12 +86,13 @@ class Unwrapper:
         callback: Callback | None = None,
         **options: Any,
     ) -> Unwrapped:
-        """Map all charts with the given options, those of `disk_map` among them; see `unwrap`.
+        """Map all charts with the given options, those of `disk_map` and of `ShapeOptions` among them; see `unwrap`.
 
         Factorizations are used again.
         """
         where = PlaceOptions(place=Place.of("place", place), margin=margin, rotation=rotation)
-        how = DiskOptions(**options)
+        shapes = ShapeOptions(**{field.name: options.pop(field.name) for field in SHAPES if field.name in options})
+        how = ChartOptions(shape=shapes, disk=DiskOptions(**options), rotation=where.rotation)
         vertices = NamedVertices(
             vertex_list("center", center, self._used),
             vertex_list("boundary_vertex", boundary_vertex, self._used),
@@ -99,9 +102,9 @@ class Unwrapper:
         progress.report("charts", SPLITTING)
         progress.weigh(self._meshes.weights())
         solutions = []
-        for number, mapper in enumerate(self._mappers):
+        for number, (mapper, shape) in enumerate(zip(self._mappers, shapes.of_charts(len(self._mappers)), strict=True)):
             progress.start(number)
-            solutions.append(mapper.solve(how, vertices, progress if progress.wanted else None))
+            solutions.append(mapper.solve(shape, how, vertices, progress if progress.wanted else None))
         self._check_used(vertices, solutions, offered=isinstance(pins, set | frozenset))
         progress.report("packing", PLACING)
         result = self._assembled(solutions, where)
@@ -135,7 +138,7 @@ class Unwrapper:
         z: NDArray[np.complex128] = np.zeros(len(surface.vertex_of_site), dtype=np.complex128)
         for number in np.flatnonzero(mapped).tolist():
             own = slice(self._meshes.first_vertex[number], self._meshes.first_virtual[number])
-            z[self._meshes.site[own]] = _laid(solutions[number].z, placed[number], where.rotation)
+            z[self._meshes.site[own]] = _laid(solutions[number].z, placed[number])
         uv = np.zeros((self._corner_count, 2))
         uv[split.corner] = z[surface.site[: len(split.corner)]].view(np.float64).reshape(-1, 2)
         chart_of_face = np.full(self._face_count, -1, dtype=np.int64)
@@ -176,10 +179,8 @@ class Unwrapper:
         return self._split.selected[polygon[polygon < self._split.surface.real]]
 
 
-def _laid(z: NDArray[np.complex128], placement: Placement, rotation: float) -> NDArray[np.complex128]:
-    """Positions in the disk turned and put in their place; untouched where there is nothing to do."""
-    if rotation:
-        z = z * np.exp(1j * rotation)
+def _laid(z: NDArray[np.complex128], placement: Placement) -> NDArray[np.complex128]:
+    """Positions put in their place; untouched where there is nothing to do."""
     if placement == Placement():
         return z
     return complex(*placement.center) + placement.scale * z

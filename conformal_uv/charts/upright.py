@@ -41,6 +41,8 @@ def upright_turn(V: Real, F: Ints, z: Complex, loop: Ints, shape: Shape, upright
     if upright is Upright.NONE:
         return 1.0
     up, beyond = (np.array(axis) for axis in AXES[upright])
+    V = V - V[0]
+    V = V / (np.abs(V).max() or 1.0)  # squares of what is very large or very small would be lost
     rise = _mean_rise(V, F, z, up)
     flat = abs(rise) < FLAT
     if flat:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..charts import Chart, Unwrapped
+from ..console.summary import shape_name
 from ..errors import MissingDependencyError, OptionError
 from ..files import replaced_file
 from ..operators import Distortion
@@ -42,7 +43,7 @@ def draw_unwrapped(path: Path, result: Unwrapped, title: str) -> None:
     left, middle, right = figure.subplots(1, 3)
     charts = [chart for chart in result.charts if chart.map is not None]
     corners = np.concatenate([chart.mesh.V[chart.F] for chart in charts])
-    image = np.concatenate([_in_texture(chart) for chart in charts])
+    image = np.concatenate([result.uv[chart.corner] for chart in charts])
     count = len(corners)
     flat, depth, shade = _view(corners)
     far_first = np.argsort(depth)
@@ -105,16 +106,10 @@ def _draw_faces_by_error(
     axes.set_title(f"{told}; {len(measured.flipped)} flipped (red)" if len(measured.flipped) else told)
 
 
-def _in_texture(chart: Chart) -> NDArray[np.float64]:
-    """Corners of a chart's triangles in the texture, (m, 3, 2)."""
-    uv = chart.map.uv[: len(chart.vertices)] if chart.map is not None else np.empty((0, 2))
-    return np.asarray(chart.placement.center) + chart.placement.scale * uv[chart.F]
-
-
 def _caption(charts: list[Chart]) -> str:
     first = charts[0].map
     if len(charts) == 1 and first is not None:
-        return f"{first.method} map, conformal energy {first.conformal_energy:.3g}"
+        return f"{shape_name(first)} map, conformal energy {first.conformal_energy:.3g}"
     return f"{len(charts)} charts"
 
 

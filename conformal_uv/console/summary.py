@@ -12,10 +12,20 @@ from .._version import __version__
 from ..charts import Chart, Unwrapped
 from ..disk import DiskMap
 from ..errors import Remedy
+from ..free import FreeMap
+from ..rectangle import RectangleMap
 from ..report import DistortionNumbers, distortion_numbers, unwrap_numbers
 from .terminal import plain
 
-__all__ = ["angles_text", "distortion_summary", "iterations_text", "print_rows", "print_summary", "unwrapped_summary"]
+__all__ = [
+    "angles_text",
+    "distortion_summary",
+    "iterations_text",
+    "print_rows",
+    "print_summary",
+    "shape_name",
+    "unwrapped_summary",
+]
 
 MOST_LISTED = 1000  # faces written to JSON
 MOST_CHARTS = 20  # rows printed
@@ -83,18 +93,38 @@ def _chart_summary(number: int, chart: Chart, lost_to_float32: int) -> dict[str,
     return {**told, **distortion_summary(distortion_numbers([chart.distortion]))}
 
 
-def _map_summary(result: DiskMap) -> dict[str, Any]:
-    return {
+def shape_name(result: DiskMap | FreeMap | RectangleMap) -> str:
+    """The name of a map for people: its method on the disk, else its shape."""
+    if isinstance(result, FreeMap):
+        return "free"
+    return "rectangle" if isinstance(result, RectangleMap) else result.method
+
+
+def _map_summary(result: DiskMap | FreeMap | RectangleMap) -> dict[str, Any]:
+    told: dict[str, Any] = {
         "boundary_vertices": len(result.boundary),
-        "method": result.method,
-        "objective": result.objective,
+        "shape": shape_name(result) if not isinstance(result, DiskMap) else "disk",
+    }
+    if isinstance(result, FreeMap):
+        told["crossings"] = len(result.crossings)
+    elif isinstance(result, RectangleMap):
+        told["modulus"] = result.modulus
+        told["modulus_bounds"] = [_finite(bound) for bound in result.modulus_bounds]
+        told["corners"] = result.corners.tolist()
+    else:
+        told |= {
+            "method": result.method,
+            "objective": result.objective,
+            "center": result.center,
+            "pins": list(result.pins) if result.pins is not None else None,
+            "iterations": len(result.history),
+            "history": [dict(zip(row._fields, row, strict=True)) for row in result.history],
+        }
+    return told | {
+        "map_status": str(result.status),
         "laplacian": result.laplacian,
         "backend": result.backend,
         "converged": result.converged,
-        "center": result.center,
-        "pins": list(result.pins) if result.pins is not None else None,
-        "iterations": len(result.history),
-        "history": [dict(zip(row._fields, row, strict=True)) for row in result.history],
         "conformal_energy": result.conformal_energy,
         "dirichlet_energy": result.dirichlet_energy,
         "flipped_triangles": len(result.flipped),
@@ -135,9 +165,15 @@ def print_rows(rows: list[tuple[str, str]], *, stderr: bool = False) -> None:
 
 
 def _map_rows(chart: dict[str, Any]) -> list[tuple[str, str]]:
-    rows = [
-        ("method", "{method}, {objective} energy, {laplacian} Laplacian, {backend}".format(**chart)),
-        ("iterations", iterations_text(chart)),
+    rows = [("shape", "{shape}, {laplacian} Laplacian, {backend}".format(**chart))]
+    if chart["shape"] == "disk":
+        rows = [
+            ("method", "{method}, {objective} energy, {laplacian} Laplacian, {backend}".format(**chart)),
+            ("iterations", iterations_text(chart)),
+        ]
+    elif chart["shape"] == "rectangle":
+        rows.append(("modulus", _modulus_text(chart)))
+    rows += [
         ("conformal energy", f"{chart['conformal_energy']:.6g}"),
         ("Dirichlet energy", f"{chart['dirichlet_energy']:.6g}"),
     ]
@@ -151,9 +187,15 @@ def _map_rows(chart: dict[str, Any]) -> list[tuple[str, str]]:
 def _chart_line(chart: dict[str, Any]) -> str:
     if chart["status"] == "failed":
         return f"{chart['faces']} faces, not mapped"
-    text = f"{chart['faces']} faces; {iterations_text(chart)}; energy {chart['conformal_energy']:.4g}; angle error "
+    what = iterations_text(chart) if chart["shape"] == "disk" else chart["shape"]
+    text = f"{chart['faces']} faces; {what}; energy {chart['conformal_energy']:.4g}; angle error "
     text += angles_text(chart["angle_error_degrees"])
     return "; ".join([text, *chart["notes"]])
+
+
+def _modulus_text(chart: dict[str, Any]) -> str:
+    low, high = chart["modulus_bounds"]
+    return f"{chart['modulus']:.7g}, certainly between {low:.7g} and " + ("infinity" if high is None else f"{high:.7g}")
 
 
 def angles_text(angle: dict[str, float]) -> str:

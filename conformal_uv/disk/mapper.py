@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,6 +28,7 @@ from .solution import Solution, solve_augmented_lagrangian, solve_linear, solve_
 
 __all__ = ["DiskMapper"]
 
+Turn = Callable[[NDArray[np.complex128]], complex]
 log = logging.getLogger(__name__)
 
 
@@ -95,14 +97,14 @@ class DiskMapper:
         """
         return self.solved(DiskOptions(**options), callback)
 
-    def solved(self, options: DiskOptions, callback: Callback | None = None) -> DiskMap:
-        """The same, the options in one object."""
+    def solved(self, options: DiskOptions, callback: Callback | None = None, turn: Turn | None = None) -> DiskMap:
+        """The same, the options in one object, the disk turned by what `turn` says of the positions (n,)."""
         options = anchored(options, self.surface.n, self.boundary)
         progress = Progress(callback)
         if self._solved is None or self._solved[0] != options.solution_key:
             self._solved = options.solution_key, self._solve(options, progress)
         progress("placement", 0.0)
-        candidates = [self._finished(solution, options, progress) for solution in self._solved[1]]
+        candidates = [self._finished(solution, options, turn, progress) for solution in self._solved[1]]
         always = options.repair is Repair.ALWAYS
         found = candidates[0] if len(candidates) == 1 else self._better(candidates, always)
         solution = found.solution
@@ -123,10 +125,14 @@ class DiskMapper:
             return [start.solution]
         return solve_auto(self.surface, start, measure, options, progress)
 
-    def _finished(self, solution: Solution, options: DiskOptions, progress: Progress) -> _Finished:
-        """A solution placed and repaired as the options ask for."""
+    def _finished(self, solution: Solution, options: DiskOptions, turn: Turn | None, progress: Progress) -> _Finished:
+        """A solution placed, turned and repaired as the options ask for."""
         fixed, cost = self._held(options), None
         z, flipped, center = self._placed(solution, options)
+        by = 1.0 if turn is None else turn(z)
+        if by != 1.0:
+            z = inside_disk(z * by)
+            flipped = flipped_faces(z, self.surface.corners)
         distinct = with_distinct_boundary(z, self.boundary, fixed)
         if distinct is not z:
             z, flipped = distinct, flipped_faces(distinct, self.surface.corners)
