@@ -7,9 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..disk import DiskMap
 from ..operators import face_areas
 from ..options import Place
 from .chart import Chart, Unwrapped
+from .outlines import unit_disk
 from .packing import placements
 
 __all__ = ["pack_together"]
@@ -54,7 +56,8 @@ def pack_together(
     area = np.array([face_areas(chart.mesh.V, chart.F).sum() for _, chart in charts])
     largest = float(area.max(initial=0.0))
     image = np.array([_image_area(chart) for _, chart in charts])
-    placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, image)
+    shapes = None if all(isinstance(chart.map, DiskMap) for _, chart in charts) else [_shape(c) for _, c in charts]
+    placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, image, shapes)
     out = [result.uv.copy() for result in results]
     for (number, chart), place in zip(charts, placed, strict=True):
         own = np.unique(chart.corner)
@@ -69,6 +72,14 @@ def _chosen(results: Sequence[Unwrapped], wanted: Sequence[NDArray[np.bool_]]) -
         for chart, take in zip(result.charts, mask, strict=True)
         if take
     ]
+
+
+def _shape(chart: Chart) -> tuple[NDArray[np.complex128], NDArray[np.int64]]:
+    """Positions and triangles that cover the chart: those of the whole disk, or its own."""
+    assert chart.map is not None
+    if isinstance(chart.map, DiskMap):
+        return unit_disk()
+    return chart.map.uv[: len(chart.vertices)].view(np.complex128).reshape(-1), chart.F.T
 
 
 def _image_area(chart: Chart) -> float:
