@@ -13,6 +13,7 @@ Complex = NDArray[np.complex128]
 
 MOST_CELLS, FEWEST_CELLS = 32, 4  # a typical box is this many cells across
 CELLS_FOR_ALL = 8000  # rpack's time grows with the number of rectangles and with their sizes
+TRIES = 3
 GROWTH = 1.02  # of the square's side from one try to the next
 
 
@@ -22,7 +23,17 @@ def pack_by_box(rpack: Any, size: Complex, margin: float, enough: float) -> tupl
     Boxes keep `margin` times the side from each other and from the square's sides. None where no side less than
     `enough` is found.
     """
-    gap = margin * enough
+    best = None
+    for _ in range(TRIES):  # what is less wide needs less between
+        found = _packed(rpack, size, margin * enough, enough)
+        if found is None:
+            break
+        best, enough = found, found[1]
+    return best
+
+
+def _packed(rpack: Any, size: Complex, gap: float, enough: float) -> tuple[Complex, float] | None:
+    """The same with a given gap."""
     typical = float(np.sqrt(np.mean(np.abs(size) ** 2 / 2.0)))
     cell = typical / float(np.clip(CELLS_FOR_ALL // len(size), FEWEST_CELLS, MOST_CELLS))
     width, height = (np.maximum(np.ceil((a + gap) / cell), 1.0).astype(np.int64) for a in (size.real, size.imag))

@@ -17,7 +17,7 @@ __all__ = ["pack_by_outline"]
 Ints = NDArray[np.int64]
 Complex = NDArray[np.complex128]
 
-FEWEST_CELLS, MOST_CELLS = 384, 640  # along the square's side; the time grows with their square
+FEWEST_CELLS, MOST_CELLS = 320, 640  # along the square's side; the time grows with their square
 CELLS_OF_CHART = 30  # across one, where all are alike
 PARTS = (
     0.5,
