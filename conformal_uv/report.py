@@ -8,14 +8,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .charts import Chart, Unwrapped
+from .charts import Chart, Placement, Unwrapped
 from .mesh.polygons import PolygonMesh
 from .mesh.triangulate import triangulate
 from .operators import Distortion
 from .operators.orientation_sign import orientation_signs
 from .operators.wirtinger import planar_sides, signed_double_areas
 
-__all__ = ["DistortionNumbers", "UnwrapNumbers", "distortion_numbers", "flipped_polygons", "unwrap_numbers"]
+__all__ = [
+    "DistortionNumbers",
+    "UnwrapNumbers",
+    "coverage",
+    "distortion_numbers",
+    "flipped_polygons",
+    "unwrap_numbers",
+]
 
 
 @dataclass(frozen=True)
@@ -68,6 +75,8 @@ class UnwrapNumbers:
     lost_to_double : int
     lost_to_float32 : (c,) int64
         Triangles of each chart without positive area in single precision, as stored.
+    coverage : float or None
+        Share of the unit square that the images fill, as stored; None where they were not placed in it.
 
     Examples
     --------
@@ -89,6 +98,7 @@ class UnwrapNumbers:
     flipped: NDArray[np.int64]
     lost_to_double: int
     lost_to_float32: NDArray[np.int64]
+    coverage: float | None
 
 
 def distortion_numbers(
@@ -163,7 +173,34 @@ def unwrap_numbers(
         flipped=np.concatenate([empty, *(chart.flipped for chart in done)]),
         lost_to_double=sum(len(found.lost_to_double) for found in maps),
         lost_to_float32=np.where(taken, result.lost_to_float32(stored), 0),
+        coverage=coverage(stored, done)
+        if uv is not None or any(chart.placement != Placement() for chart in done)
+        else None,
     )
+
+
+def coverage(uv: NDArray[np.float64], charts: Sequence[Chart]) -> float | None:
+    """Share of the unit square that charts without overlaps fill; None where one reaches out of it.
+
+    Parameters
+    ----------
+    uv : (k, 2) floats
+        Of every polygon corner.
+    charts : sequence of Chart
+        Mapped ones.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> from conformal_uv.samples import mask
+    >>> u = cuv.unwrap(*mask(500))
+    >>> 0.77 < cuv.unwrap_numbers(u).coverage < 0.7854  # a disk that fills the square
+    True
+    """
+    used = [uv[chart.corner] for chart in charts]
+    if not used or min(part.min() for part in used) < 0.0 or max(part.max() for part in used) > 1.0:
+        return None
+    return sum(_area(uv, chart.corner) for chart in charts)
 
 
 def _enlarged(chart: Chart, stored: NDArray[np.float64]) -> float:

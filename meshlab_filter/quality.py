@@ -62,6 +62,7 @@ def map_numbers(source: CurrentMesh, result: Unwrapped, texcoords: Texcoords) ->
         "lost_to_double": numbers.lost_to_double,
         "lost_to_float32": int(numbers.lost_to_float32.sum()),
         "converged_charts": numbers.converged_charts,
+        **({} if numbers.coverage is None else {"coverage": numbers.coverage}),
     }
 
 

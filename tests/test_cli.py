@@ -221,8 +221,9 @@ def test_several_pieces_become_charts_that_do_not_overlap(tmp_path: Path):
     assert "mapped 2 of 2 charts" in done.stdout and "chart 1" in done.stdout
     uv = np.load(tmp_path / "out.npz")["corner_uv"]
     assert uv.min() >= 0 and uv.max() <= 1
-    one, two = uv[:48], uv[48:]  # disks lie in squares of their own, so their boxes are apart
-    assert ((one.max(axis=0) < two.min(axis=0)) | (two.max(axis=0) < one.min(axis=0))).any()
+    turn = np.linspace(0, 2 * np.pi, 720)
+    one, two = (uv @ np.array([np.cos(turn), np.sin(turn)]) for uv in (uv[:48], uv[48:]))
+    assert (one.max(axis=0) < two.min(axis=0)).any()  # a line runs between two disks
     assert [chart["status"] for chart in json.loads((tmp_path / "out.json").read_text())["charts"]] == ["mapped"] * 2
 
 

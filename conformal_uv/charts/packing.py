@@ -1,32 +1,29 @@
-"""Where the disks of the charts go in the texture: one fills it, several are packed.
-
-The squares around them are packed by rpack (rectangle-packer), on a grid of whole cells.
-"""
+"""Where charts go in the texture: one fills it, several are packed by their outlines."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import MissingDependencyError
 from ..options import Place
+from .outlines import Outlines, chart_outlines, disk_outlines
+from .square_packing import pack_outlines
 
-__all__ = ["Placement", "kept_margin", "pack_disks", "placements"]
+__all__ = ["Placement", "kept_margin", "pack_charts", "pack_disks", "placements"]
 
 Real = NDArray[np.float64]
+ChartShape = tuple[NDArray[np.complex128], NDArray[np.integer]]
 
-PACKED_MARGIN = 0.005  # between packed disks where no margin is asked for
-LEAST_FILL = 1e-3  # an image that fills less of its disk than this counts as filling that much
-MOST_CELLS, FEWEST_CELLS = 32, 4  # a typical disk is this many cells across
-CELLS_FOR_ALL = 8000  # rpack's time grows with the number of rectangles and with their sizes
-GROWTH = 1.02  # of the square's side from one try to the next
+PACKED_MARGIN = 0.005  # between packed charts where no margin is asked for
+LEAST_FILL = 1e-3  # an image that fills less of its disk or box than this counts as filling that much
 
 
 @dataclass(frozen=True)
 class Placement:
-    """A chart's disk in the texture: ``uv = center + scale * (position in the unit disk)``.
+    """A chart's place in the texture: ``uv = center + scale * (position in its own plane)``.
 
     Examples
     --------
@@ -40,7 +37,13 @@ class Placement:
     scale: float = 1.0
 
 
-def placements(place: Place, margin: float | None, area: Real, image_area: Real) -> list[Placement]:
+def placements(
+    place: Place,
+    margin: float | None,
+    area: Real,
+    image_area: Real,
+    charts: Sequence[ChartShape] | None = None,
+) -> list[Placement]:
     """A placement for each mapped chart.
 
     Parameters
@@ -48,59 +51,68 @@ def placements(place: Place, margin: float | None, area: Real, image_area: Real)
     area : (k,)
         Of each chart on the surface.
     image_area : (k,)
-        Of its image in the unit disk. When charts are packed, scales are such that the ratio of the image's area
+        Of its image in its own plane. When charts are packed, scales are such that the ratio of the image's area
         to the surface's is the same for all.
+    charts : sequence of positions (n,) complex and triangles (3, m), optional
+        The charts in their planes; unit disks where none are given.
     """
     if place is Place.DISK or not len(area):
         return [Placement()] * len(area)
-    if len(area) == 1:
+    if charts is None and len(area) == 1:
         return [Placement((0.5, 0.5), 0.5 - (margin or 0.0))]
-    radius = np.sqrt(area / np.maximum(image_area, LEAST_FILL * np.pi))
-    if not radius.max() > 0.0:
-        radius = np.ones(len(area))
-    centers, scale = pack_disks(radius, kept_margin(PACKED_MARGIN if margin is None else margin, len(area)))
-    return [Placement((float(x), float(y)), float(r)) for (x, y), r in zip(centers, radius * scale, strict=True)]
+    outlines = disk_outlines(np.ones(len(area))) if charts is None else chart_outlines(charts)
+    full = np.pi if charts is None else outlines.size.real * outlines.size.imag
+    least = np.maximum(image_area, LEAST_FILL * full)
+    scale = np.sqrt(np.divide(area, least, out=np.zeros(len(area)), where=least > 0.0))
+    if not scale.max() > 0.0:
+        scale = np.ones(len(area))
+    center, common = _in_unit_square(outlines.scaled(scale), margin)
+    return [_placement(*found) for found in zip(center, scale * common, strict=True)]
 
 
-def kept_margin(margin: float, count: int) -> float:
-    """The margin that `count` disks can keep: at most a quarter of a disk's share of the square's side."""
-    return min(margin, 0.25 / max(1.0, np.ceil(np.sqrt(count))))
+def pack_charts(charts: Sequence[ChartShape], margin: float | None = None) -> list[Placement]:
+    """Places of charts in the unit square, one scale for all; they are not turned and do not overlap.
+
+    Parameters
+    ----------
+    charts : sequence of positions (n,) complex and triangles (3, m)
+        Each in a plane of its own, as large in relation to the others as it is to be. Other charts may come to lie in
+        its bays and holes.
+    margin : float, optional
+        Kept between charts and to the square's sides, a part of its side; less where charts are too many for it.
+
+    Raises
+    ------
+    MissingDependencyError
+        There are several, and neither xatlas nor rectangle-packer is installed.
+    """
+    if not len(charts):
+        return []
+    center, scale = _in_unit_square(chart_outlines(charts), margin)
+    return [_placement(point, scale) for point in center]
 
 
 def pack_disks(radius: Real, margin: float) -> tuple[Real, float]:
     """Centres (k, 2) in the unit square, and the factor by which all radii (k,) are multiplied.
 
-    Disks keep at least `margin` from each other and from the square's sides.
-
-    Raises
-    ------
-    MissingDependencyError
-        rectangle-packer is not installed.
+    Disks keep at least `margin` from each other and from the square's sides. Raises as `pack_charts`.
     """
-    try:
-        import rpack
-    except ImportError as error:
-        raise MissingDependencyError(
-            'Packing several charts needs rectangle-packer: pip install rectangle-packer, or pass place="disk".'
-        ) from error
-    across = 2.0 * radius
-    typical = float(np.sqrt(np.mean(across**2)))
-    cells = np.clip(CELLS_FOR_ALL // len(radius), FEWEST_CELLS, MOST_CELLS)
-    across = across * (float(cells) / typical)
-    share = margin / (1.0 - margin)
-    side = max(float(np.sqrt((across**2).sum())), float(across.max()))
-    while True:
-        side = float(np.ceil(side * GROWTH))
-        pad = share * side
-        size = np.maximum(np.ceil(across + pad), 1.0).astype(np.int64)
-        if size.max() > side or (size**2).sum() > side * side:
-            continue
-        try:
-            corner = rpack.pack([(s, s) for s in size.tolist()], max_width=int(side), max_height=int(side))
-            break
-        except rpack.PackingImpossibleError:
-            continue
-    place = np.asarray(corner, dtype=np.float64) + 0.5 * size[:, None]
-    extent = float((place + 0.5 * size[:, None]).max())
-    unit = 1.0 / (extent + pad)
-    return (place + 0.5 * pad) * unit, unit * float(cells) / typical
+    center, scale = _in_unit_square(disk_outlines(radius), margin)
+    return np.column_stack((center.real, center.imag)), scale
+
+
+def kept_margin(margin: float, count: int) -> float:
+    """The margin that `count` charts can keep: at most a quarter of a chart's share of the square's side."""
+    return min(margin, 0.25 / max(1.0, np.ceil(np.sqrt(count))))
+
+
+def _in_unit_square(outlines: Outlines, margin: float | None) -> tuple[NDArray[np.complex128], float]:
+    """Where the origins of the charts' planes come (k,), and their scale."""
+    if len(outlines) > 1:
+        margin = kept_margin(PACKED_MARGIN if margin is None else margin, len(outlines))
+    place, side = pack_outlines(outlines, margin or 0.0)
+    return (place - outlines.low) / side, 1.0 / side
+
+
+def _placement(center: complex, scale: float) -> Placement:
+    return Placement((float(center.real), float(center.imag)), float(scale))

@@ -7,10 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..disk import DiskMap
 from ..operators import face_areas
 from ..operators.wirtinger import planar_sides, signed_double_areas
 from ..options import Place
 from .chart import Chart, Unwrapped
+from .outlines import unit_disk
 from .packing import placements
 
 __all__ = ["pack_together"]
@@ -55,7 +57,10 @@ def pack_together(
     area = np.array([face_areas(chart.mesh.V, chart.F).sum() for _, chart in charts])
     largest = float(area.max(initial=0.0))
     image = np.array([_image_area(chart, results[number].uv) for number, chart in charts])
-    placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, image)
+    shapes = None
+    if not all(isinstance(chart.map, DiskMap) for _, chart in charts):
+        shapes = [_shape(chart, results[number].uv) for number, chart in charts]
+    placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, image, shapes)
     out = [result.uv.copy() for result in results]
     for (number, chart), place in zip(charts, placed, strict=True):
         own = np.unique(chart.corner)
@@ -70,6 +75,14 @@ def _chosen(results: Sequence[Unwrapped], wanted: Sequence[NDArray[np.bool_]]) -
         for chart, take in zip(result.charts, mask, strict=True)
         if take
     ]
+
+
+def _shape(chart: Chart, uv: NDArray[np.float64]) -> tuple[NDArray[np.complex128], NDArray[np.int64]]:
+    """Positions and triangles that cover the chart: those of the whole disk, or its own."""
+    if isinstance(chart.map, DiskMap):
+        return unit_disk()
+    own, triangles = np.unique(chart.corner, return_inverse=True)
+    return np.ascontiguousarray(uv[own]).view(np.complex128).reshape(-1), triangles.reshape(-1, 3).T
 
 
 def _image_area(chart: Chart, uv: NDArray[np.float64]) -> float:

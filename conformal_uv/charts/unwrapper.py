@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..disk import DiskMap
 from ..linear.backends import choose_backend
 from ..options import ChartOptions, DiskOptions, Laplacian, Place, PlaceOptions, ShapeOptions, SplitOptions
 from ..progress import Callback
@@ -19,12 +20,14 @@ from .chart_meshes import ChartMesh, chart_meshes
 from .chart_progress import PLACING, SPLITTING, ChartProgress
 from .disks import made_disks
 from .named_vertices import NamedVertices
+from .outlines import unit_disk
 from .packing import Placement, placements
 from .splitting import split_into_charts
 
 __all__ = ["Unwrapper"]
 
 Vertices = int | Iterable[Any] | None
+Outline = tuple[NDArray[np.complex128], NDArray[np.int64]]
 SHAPES = fields(ShapeOptions)
 
 
@@ -132,7 +135,8 @@ class Unwrapper:
         """Place the disks and gather the corners' coordinates."""
         mapped = np.array([solution.map is not None for solution in solutions])
         image_area = np.array([0.5 * np.abs(solution.signed).sum() for solution in solutions])
-        found = iter(placements(where.place, where.margin, self._meshes.area[mapped], image_area[mapped]))
+        outlines = self._outlines(solutions)
+        found = iter(placements(where.place, where.margin, self._meshes.area[mapped], image_area[mapped], outlines))
         placed = [next(found) if done else Placement() for done in mapped.tolist()]
         surface, split = self._split.surface, self._split
         z: NDArray[np.complex128] = np.zeros(len(surface.vertex_of_site), dtype=np.complex128)
@@ -145,6 +149,15 @@ class Unwrapper:
         chart_of_face[split.selected] = surface.chart[: surface.real]
         done = np.append(mapped, False)[chart_of_face]
         return Unwrapped(uv, chart_of_face, done, self._charts(solutions, placed))
+
+    def _outlines(self, solutions: list[ChartSolution]) -> list[Outline] | None:
+        """Positions and triangles that cover each mapped chart, of disks the whole disk; None where all are disks."""
+        done = [(number, one) for number, one in enumerate(solutions) if one.map is not None]
+        if all(isinstance(one.map, DiskMap) for _, one in done):
+            return None
+        return [
+            unit_disk() if isinstance(one.map, DiskMap) else (one.z, self._meshes[number].F.T) for number, one in done
+        ]
 
     def _charts(self, solutions: list[ChartSolution], placed: list[Placement]) -> list[Chart]:
         split, meshes = self._split, self._meshes

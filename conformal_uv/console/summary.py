@@ -67,6 +67,7 @@ def unwrapped_summary(result: Unwrapped, source: str, target: str, seconds: dict
             "mapped_faces": int(result.mapped.sum()),
         },
         **distortion_summary(numbers.distortion),
+        "coverage": numbers.coverage,
         "flipped_faces": len(numbers.flipped),
         "flipped": numbers.flipped[:MOST_LISTED].tolist(),
         "charts": charts,
@@ -146,6 +147,8 @@ def print_summary(summary: dict[str, Any], *, stderr: bool = False) -> None:
         rows += [(f"chart {chart['chart']}", _chart_line(chart)) for chart in charts[:MOST_CHARTS]]
         rows += [("", f"and {len(charts) - MOST_CHARTS} more")] if len(charts) > MOST_CHARTS else []
     rows += [("angle error", angles_text(angle)), ("flipped faces", str(summary["flipped_faces"]))]
+    if summary["coverage"] is not None:
+        rows.append(("coverage", f"{100.0 * summary['coverage']:.3g} % of the texture"))
     rows += [("warning", text) for text in _warnings(charts)]
     rows += [
         ("seconds", ", ".join(f"{stage} {spent:.2f}" for stage, spent in summary["seconds"].items())),

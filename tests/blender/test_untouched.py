@@ -168,6 +168,7 @@ def test_packing_meshes_of_extreme_sizes(size):
 
 def test_without_rectangle_packer(addon, monkeypatch):
     monkeypatch.setitem(sys.modules, "rpack", None)
+    monkeypatch.setitem(sys.modules, "xatlas", None)
     ob = scenes.primitive("cube")
     for edge in ob.data.edges:
         edge.use_seam = True
@@ -232,6 +233,7 @@ def test_packing_where_blenders_packer_does_nothing(addon, monkeypatch, works):
     assert addon.last_result.last().remarks == ([] if works else [told])
     if not works:
         monkeypatch.setitem(sys.modules, "rpack", None)
+        monkeypatch.setitem(sys.modules, "xatlas", None)
         assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}
         assert_apart(ob)
 
