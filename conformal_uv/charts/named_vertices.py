@@ -86,7 +86,7 @@ class NamedVertices:
         return self._unused(("center", "boundary_vertex", "pins"), vertices, "the boundary is free")
 
     def _unused(self, names: tuple[str, ...], vertices: Ints, why: str) -> list[str]:
-        told = [(name, wanted[np.isin(wanted, vertices)]) for name in names if len(wanted := getattr(self, name))]
+        told = [(name, np.intersect1d(getattr(self, name), vertices)) for name in names]
         return [f"{name} {listed(here)} not used: {why}" for name, here in told if len(here)]
 
     def _first(self, name: str, wanted: Ints, vertices: Ints, allowed: Ints, notes: list[str]) -> int | None:
