@@ -33,6 +33,18 @@ def test_example(path: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ca
     assert capsys.readouterr().out
 
 
+def test_picture_of_the_shapes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    pytest.importorskip("matplotlib")
+    script = EXAMPLES[0].parent.parent / "pictures" / "shapes_side_by_side.py"
+    monkeypatch.setattr(sys, "argv", [str(script), str(tmp_path / "shapes.png")])
+    runpy.run_path(str(script), run_name="__main__")
+    told = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in told] == ["disk", "free", "rectangle", "sphere"]
+    assert all(line.endswith(" 0 folds") for line in told)
+    assert float(told[1].split()[1]) < float(told[0].split()[1])  # a free boundary keeps angles better than a circle
+    assert (tmp_path / "shapes.png").read_bytes()[:4] == b"\x89PNG"
+
+
 @pytest.mark.parametrize("name", [name for name in FUNCTIONS if name not in SHOWN_ELSEWHERE])
 def test_examples_in_docstrings(name: str) -> None:
     item = getattr(cuv, name)
