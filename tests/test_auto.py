@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import meshes
 import numpy as np
 import pytest
@@ -49,7 +51,7 @@ def test_never_more_angle_error_than_either(name: str) -> None:
     assert found.method in ("linear", "newton")
     assert found.converged or found.status in ("stalled", "max-iterations")
     if found.objective == "relative":
-        assert found.method == "newton" and found.distortion.angle_mean < least and len(found.boundary) <= 32
+        assert found.method == "newton" and found.distortion.angle_mean < least and len(found.boundary) <= 12
         return
     if found.method == "linear":
         assert found.status in ("angles", "no-gain") and found.history == ()
@@ -95,7 +97,7 @@ def test_a_hole_of_three_vertices_shears_nothing(level: int) -> None:
     assert sheared < 0.5 * np.median(linear.distortion.quasi_conformal - 1.0)
 
 
-def test_least_shear_is_a_minimum_in_order() -> None:
+def test_least_shear_is_a_minimum_in_order(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of the ratio of energy to area; against many small changes of the angles."""
     V, F = meshes.wheel(7)
     V = V * [1.0, 1.7, 1.0] + [0.2, 0.0, 0.0] * (V[:, 2:] > 0.1)
@@ -107,7 +109,10 @@ def test_least_shear_is_a_minimum_in_order() -> None:
     )
     start = mapper.map(method="linear").uv[mapper.boundary] @ [1.0, 1.0j]
     theta = np.unwrap(np.angle(start))
-    (by_flux, steps), (by_area, _), _ = least_shear(mapper.surface, problem, theta)
+    found = least_shear(mapper.surface, problem, theta)
+    monkeypatch.setattr(problem, "laplacian", replace(problem.laplacian, corners=mapper.surface.corners))
+    (by_flux, steps), (by_area, _), *_ = least_shear(mapper.surface, problem, theta)
+    np.testing.assert_array_equal(found[0][0], by_area)  # by its own flux only where the Laplacian is another one's
     assert (np.diff([step.energy for step in steps]) <= 0.0).all() and steps[-1].step_length == 0.0
     np.testing.assert_allclose(by_flux, by_area, atol=1e-5)  # the same energy by two ways
 

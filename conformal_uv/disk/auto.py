@@ -59,7 +59,7 @@ def solve_auto(
 def _with_relative(surface: Surface, problem: DirichletProblem, found: list[Solution]) -> list[Solution]:
     """With the least shear of all boundary angles, where there are few and the angles could be better."""
     last = found[-1]
-    if not few_enough(problem) or _angle_mean(surface, last.z) < GOOD:
+    if not few_enough(surface, problem) or _angle_mean(surface, last.z) < GOOD:
         return found
     return [*found, *solve_relative(surface, problem, last)]
 

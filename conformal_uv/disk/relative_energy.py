@@ -25,18 +25,17 @@ __all__ = ["few_enough", "least_shear"]
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-FEW = 8  # boundary vertices,
-FEW_OF_FEW = 32  # or so many on a surface of less than
-SMALL = 2_000  # vertices
+FEW = 12  # boundary vertices
 ROUNDS = 4  # of weights
-TOLERANCE = 1e-10  # of the gradient of the ratio
+SETTLED = 1e-4  # radians, by which the angles change from one round to the next
+TOLERANCE = 1e-8  # of the gradient of the ratio
 LEAST_AREA = 1e-12  # of the image, with the forms scaled to 1
 
 
-def few_enough(problem: DirichletProblem) -> bool:
-    """Whether the boundary has so few vertices that a gauge would cost angles; each costs a back-substitution."""
+def few_enough(surface: Surface, problem: DirichletProblem) -> bool:
+    """Whether a boundary of few vertices decides on many faces; each vertex costs a back-substitution."""
     count = len(problem.boundary)
-    return 3 <= count <= (FEW_OF_FEW if problem.n < SMALL else FEW)
+    return 3 <= count <= FEW and surface.m >= 2 * count
 
 
 def least_shear(surface: Surface, problem: DirichletProblem, theta: Real) -> list[tuple[Real, tuple[NewtonStep, ...]]]:
@@ -45,15 +44,21 @@ def least_shear(surface: Surface, problem: DirichletProblem, theta: Real) -> lis
     Faces alike: iteratively reweighted least squares (Lawson 1961).
     """
     slopes, flux, areas = _slopes(surface, problem)
-    found, weights = [_least_ratio(flux, _area_form(len(theta)), theta)], areas
-    for _ in range(ROUNDS):
+    found, weights = [], areas
+    if problem.laplacian.corners is not None:  # not the faces' own energy
+        found.append(_least_ratio(flux, _area_form(len(theta)), theta))
+    for number in range(ROUNDS):
         above, below = (slopes.T * weights) @ slopes.conj(), (slopes.T.conj() * weights) @ slopes
-        found.append(_least_ratio(above, below, theta))
-        theta = found[-1][0]
-        z = np.exp(1j * theta)
-        size = np.abs(slopes @ z) ** 2
+        angles, steps = _least_ratio(above, below, theta)
+        if number in (0, ROUNDS - 1):
+            found.append((angles, steps))
+        if number and np.abs(angles - theta).max() < SETTLED:
+            found.append((angles, steps))
+            break
+        theta = angles
+        size = np.abs(slopes @ np.exp(1j * theta)) ** 2
         weights = 1.0 / np.maximum(size, 1e-12 * size.max(initial=0.0) + np.finfo(np.float64).tiny)
-    return [*found[:2], found[-1]]
+    return found
 
 
 def _slopes(surface: Surface, problem: DirichletProblem) -> tuple[Complex, Real, Real]:
