@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
@@ -92,6 +91,8 @@ def _least_ratio(above: Complex | Real, below: Complex, theta: Real) -> tuple[Re
     The gaps between neighbours are the variables, as exponentials, so that their order stays. With a row for each
     iterate, the ratio in the energy's place.
     """
+    from scipy.optimize import minimize  # slow to load, and seldom needed
+
     sizes = float(np.abs(above).max()), float(np.abs(below).max())
     if not (0.0 < sizes[0] < np.inf and 0.0 < sizes[1] < np.inf):  # lost to overflow, on needles
         return theta, ()
