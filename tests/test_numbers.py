@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from meshes_closed import icosphere
-from nasty_meshes import grid
+from nasty_meshes import flattened, grid
 from scipy.spatial.transform import Rotation
 
 import conformal_uv as cuv
 from conformal_uv.mesh.arrays import on_one_line
+from conformal_uv.operators.angle_mean import AngleMean
 from conformal_uv.samples import mask
 
 SCALES = [1e-150, 1e-100, 1e-78, 1e-20, 1e20, 1e80, 1e100, 1e150]
@@ -150,3 +151,18 @@ def test_areas_that_no_double_can_compare(surface: float, image: float, scale: f
     V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), [[0, 1, 2]]
     d = cuv.distortion(surface * V, F, image * V[:, :2])
     assert d.area_scale.tolist() == [scale] and d.angle_max == pytest.approx(0.0, abs=1e-13)
+
+
+def test_angle_mean_of_maps_that_differ_in_few_vertices() -> None:
+    """Against the whole distortion; where nothing, little and much was moved, faces without area among them."""
+    V, F = flattened(*mask(800), 5, 0.0)
+    m = cuv.disk_map(V, F)
+    z = np.ascontiguousarray(m.uv).view(np.complex128).reshape(-1)
+    angles = AngleMean(m.surface, z)
+    rng = np.random.default_rng(0)
+    for count in (0, 3, 700):
+        moved = z.copy()
+        moved[rng.choice(len(z), count, replace=False)] *= 0.9
+        expected = cuv.distortion(V, F, moved.view(np.float64).reshape(-1, 2)).angle_mean
+        assert angles.of(moved) == pytest.approx(expected, rel=1e-12)
+    assert angles.of(z) == angles.first == pytest.approx(m.distortion.angle_mean, rel=1e-12)

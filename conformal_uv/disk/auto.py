@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
+from ..operators.angle_mean import AngleMean
 from ..operators.dirichlet import DirichletProblem
-from ..operators.distortion import distortion_of
 from ..optimize import Status
 from ..options import DiskOptions
 from ..progress import Progress
@@ -92,4 +92,4 @@ def _promising(surface: Surface, energy: BoundaryEnergy, measure: CentredMeasure
 
 
 def _angle_mean(surface: Surface, z: NDArray[np.complex128]) -> float:
-    return distortion_of(surface.geometry, surface.corners, z.view(np.float64).reshape(-1, 2)).angle_mean
+    return AngleMean(surface, z).first

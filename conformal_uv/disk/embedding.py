@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ..errors import SolverError
 from ..mesh.surface import Surface
+from ..operators.angle_mean import AngleMean
 from ..operators.dirichlet import DirichletProblem
-from ..operators.distortion import distortion_of
 from ..operators.mean_value import NeighbourMeans, surface_mean_value_matrix
 from ..operators.orientation_sign import collapsed_faces, flipped_faces, orientation_signs
 from ..options import Repair
@@ -84,12 +84,13 @@ def unfolded(
     repair : Repair
         `auto` pays half a degree of mean angle error, `always` whatever it takes.
     """
-    best = start = _Tried(z, folds, _angle_mean(surface, z))
+    angles = AngleMean(surface, z)
+    best = start = _Tried(z, folds, angles.first)
     most = start.angle_mean + DEAR if repair is Repair.AUTO else np.inf
     crowded = len(folds) > MOST_MENDED * surface.m  # there an embedding may well have less angle error
     folded = len(flipped_faces(z, surface.corners))
     progress("repair", 0.0)
-    for tried in _ways(surface, problem, z, folds, fixed, progress):
+    for tried in _ways(surface, problem, z, folds, fixed, angles, progress):
         if tried.angle_mean <= most and tried.rank < best.rank and len(tried.folds) <= folded:
             best = tried
         if not len(best.folds) and best.angle_mean <= start.angle_mean + CHEAP and not crowded:
@@ -99,13 +100,19 @@ def unfolded(
 
 
 def _ways(
-    surface: Surface, problem: DirichletProblem, z: Complex, folds: Ints, fixed: Ints, progress: Progress
+    surface: Surface,
+    problem: DirichletProblem,
+    z: Complex,
+    folds: Ints,
+    fixed: Ints,
+    angles: AngleMean,
+    progress: Progress,
 ) -> Iterator[_Tried]:
     loop, corners = problem.boundary, surface.corners
-    sharp = _tried(surface, with_sharp_ears(z, corners, loop, np.union1d(folds, flipped_faces(z, corners))))
+    sharp = _tried(surface, angles, with_sharp_ears(z, corners, loop, np.union1d(folds, flipped_faces(z, corners))))
     yield sharp
     if len(sharp.folds):
-        yield _tried(surface, _mended(surface, loop, sharp.z, progress))
+        yield _tried(surface, angles, _mended(surface, loop, sharp.z, progress))
     means: list[NeighbourMeans] = []
 
     def by_mean_values(zb: Complex) -> Complex:
@@ -120,19 +127,14 @@ def _ways(
         progress("repair", number / len(SHARES))
         for extend in (problem.extend, by_mean_values):
             try:
-                yield _respaced(surface, loop, boundary, boundary.shared(share), extend, progress)
+                yield _respaced(surface, loop, boundary, boundary.shared(share), extend, angles, progress)
             except SolverError:
                 continue
 
 
-def _tried(surface: Surface, z: Complex) -> _Tried:
+def _tried(surface: Surface, angles: AngleMean, z: Complex) -> _Tried:
     z = inside_disk(z)
-    return _Tried(z, flipped_faces(z, surface.corners), _angle_mean(surface, z))
-
-
-def _angle_mean(surface: Surface, z: Complex) -> float:
-    points = np.ascontiguousarray(z).view(np.float64).reshape(-1, 2)
-    return distortion_of(surface.geometry, surface.corners, points).angle_mean
+    return _Tried(z, flipped_faces(z, surface.corners), angles.of(z))
 
 
 class _Boundary:
@@ -273,6 +275,7 @@ def _respaced(
     boundary: _Boundary,
     arcs: Real,
     extend: Callable[[Complex], Complex],
+    angles: AngleMean,
     progress: Progress,
 ) -> _Tried:
     """The extension of one boundary, arcs of folded ears widened to what doubles resolve, after local repair."""
@@ -293,7 +296,7 @@ def _respaced(
         arcs[narrow] = EAR_ARC
     if 0 < len(folds) <= max(100, MOST_MENDED * surface.m):
         z = _mended(surface, loop, z, progress)
-    return _tried(surface, z)
+    return _tried(surface, angles, z)
 
 
 def _mended(surface: Surface, loop: Ints, z: Complex, progress: Progress) -> Complex:

@@ -15,7 +15,7 @@ from ..mesh.geometry import TriangleGeometry, triangle_geometry
 from .orientation_sign import orientation_signs, outward_signs
 from .wirtinger import Sides, planar_sides, unfolded_sides, wirtinger
 
-__all__ = ["Distortion", "distortion", "distortion_of"]
+__all__ = ["Distortion", "angle_between", "distortion", "distortion_of"]
 
 Real = NDArray[np.float64]
 
@@ -125,7 +125,7 @@ def distortion_of(
         fz, fzbar = wirtinger(unfolded_sides(here), sides, np.where(has_area, here.double_area, 1.0))
         plus, minus = np.abs(fz), np.abs(fzbar)
         small = np.abs(plus - minus)
-        angle[part] = _angle_between(here, there).T
+        angle[part] = angle_between(here, there).T
         quasi_conformal[part] = _ratio(plus + minus, small, has_area & (small > 0))
         area_scale[part] = _ratio(there.double_area, here.double_area, has_area, unit)
     return Distortion(np.degrees(angle, out=angle), quasi_conformal, area_scale, np.flatnonzero(signs <= 0))
@@ -143,7 +143,7 @@ def _image_sides(image: Real, corners: NDArray[np.int32], shape: TriangleGeometr
     return unfolded_sides(shape)
 
 
-def _angle_between(one: TriangleGeometry, other: TriangleGeometry) -> Real:
+def angle_between(one: TriangleGeometry, other: TriangleGeometry) -> Real:
     """Size of the difference of the angles at each corner, (3, m) radians, without taking either angle itself.
 
     A corner with an edge of no length has angle 0.
