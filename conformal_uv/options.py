@@ -119,6 +119,11 @@ class Repair(Choice):
     ALWAYS = "always"
     NEVER = "never"
 
+    @property
+    def pays(self) -> float:
+        """Degrees of mean angle error that unfolding may cost."""
+        return {Repair.AUTO: 0.5, Repair.ALWAYS: INFINITY, Repair.NEVER: 0.0}[self]
+
     @classmethod
     def _joint(cls) -> str:
         return ", "

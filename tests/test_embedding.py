@@ -8,7 +8,8 @@ from nasty_meshes import EMBEDDED, grid
 from numpy.typing import NDArray
 
 import conformal_uv as cuv
-from conformal_uv.disk.embedding import with_distinct_boundary, with_sharp_ears
+from conformal_uv.disk.ears import with_sharp_ears
+from conformal_uv.disk.spacing import with_distinct_boundary
 from conformal_uv.operators.orientation_sign import flipped_faces
 
 CROWDED = [

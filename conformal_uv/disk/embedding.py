@@ -19,13 +19,15 @@ from ..mesh.surface import Surface
 from ..operators.angle_mean import AngleMean
 from ..operators.dirichlet import DirichletProblem
 from ..operators.mean_value import NeighbourMeans, surface_mean_value_matrix
-from ..operators.orientation_sign import collapsed_faces, flipped_faces, orientation_signs
+from ..operators.orientation_sign import collapsed_faces, flipped_faces
 from ..options import Repair
 from ..progress import Progress
+from .ears import with_sharp_ears
 from .placement import inside_disk
 from .repair import repaired
+from .spacing import SMALLEST_ARC, CircleSpacing
 
-__all__ = ["doubtful_faces", "unfolded", "with_distinct_boundary", "with_sharp_ears"]
+__all__ = ["unfolded"]
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
@@ -33,15 +35,9 @@ Ints = NDArray[np.int64]
 
 # Radians: an ear's height over its chord is the square of its arc over 8, and doubles near 1 are 1e-16 apart.
 EAR_ARC = 3e-8
-DOUBTFUL_ARC = 1e-7  # up to which an ear's height is some rounding errors, and chance may have wound it rightly
-SMALLEST_ARC = 1e-15  # that neighbours on the circle keep; two doubles near 1 are told apart from 2e-16 on
-DEPTHS = 2.0 ** np.arange(-48, -42)  # of an ear's sides below its tip: from well over the circle's rounding
-DEEPEST = 9e-13  # below the circle
-LEANING = 3.0  # times the depth of the tip
 SHARES = (0.0, 1e-13, 1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0)  # of equal spacing
 MOST_MENDED = 0.01  # of the faces; where more are folded, local repair would move everything anyway
 ROUNDS = 4  # of widening ears
-DEAR = 0.5  # degrees of mean angle error that `repair="auto"` does not pay
 CHEAP = 0.02  # degrees; nobody looks for less
 
 
@@ -86,7 +82,7 @@ def unfolded(
     """
     angles = AngleMean(surface, z)
     best = start = _Tried(z, folds, angles.first)
-    most = start.angle_mean + DEAR if repair is Repair.AUTO else np.inf
+    most = start.angle_mean + repair.pays
     crowded = len(folds) > MOST_MENDED * surface.m  # there an embedding may well have less angle error
     folded = len(flipped_faces(z, surface.corners))
     progress("repair", 0.0)
@@ -122,7 +118,7 @@ def _ways(
         given[loop] = zb
         return means[0].placed(given)
 
-    boundary = _Boundary(z[loop], np.flatnonzero(np.isin(loop, fixed)))
+    boundary = CircleSpacing(z[loop], np.flatnonzero(np.isin(loop, fixed)))
     for number, share in enumerate(SHARES):
         progress("repair", number / len(SHARES))
         for extend in (problem.extend, by_mean_values):
@@ -137,142 +133,10 @@ def _tried(surface: Surface, angles: AngleMean, z: Complex) -> _Tried:
     return _Tried(z, flipped_faces(z, surface.corners), angles.of(z))
 
 
-class _Boundary:
-    """Points of the circle in order, as arcs from each to the next; some of them stay where they are.
-
-    Parameters
-    ----------
-    zb : (nb,) complex128
-    fixed : (f,) int64
-        Places in zb, ascending, at least one.
-    """
-
-    def __init__(self, zb: Complex, fixed: Ints) -> None:
-        self._zb, self._fixed = zb, fixed
-        self.arcs = np.maximum(np.angle(np.roll(zb, -1) / zb), 0.0)
-        if not self.arcs.any():
-            self.arcs += 1.0
-        held = np.angle(np.roll(zb[fixed], -1) / zb[fixed]) % (2.0 * np.pi)
-        self._stretch = np.where(held > 0.0, held, 2.0 * np.pi)  # a single one: all around
-        self.arcs = self.fitted(self.arcs)
-
-    def shared(self, share: float) -> Real:
-        """Arcs with this share of equal spacing."""
-        return self.fitted((1.0 - share) * self.arcs + share * 2.0 * np.pi / len(self.arcs))
-
-    def fitted(self, arcs: Real) -> Real:
-        """Arcs scaled between each two fixed points to what lies between them."""
-        first = int(self._fixed[0])
-        turned = np.roll(arcs, -first)
-        begin = self._fixed - first
-        total = np.add.reduceat(turned, begin)
-        count = np.diff(begin, append=len(arcs))
-        scale = np.repeat(self._stretch / np.where(total > 0.0, total, 1.0), count)
-        return np.asarray(np.roll(turned * scale, first))
-
-    def points(self, arcs: Real) -> Complex:
-        """Points with these arcs between them, the fixed ones where they were.
-
-        Angles are summed from both sides of each fixed point, which rounds the smaller ones less.
-        """
-        first = int(self._fixed[0])
-        out = self._zb.copy()
-        begin = np.append(self._fixed, first + len(arcs))
-        for start, end in zip(begin[:-1].tolist(), begin[1:].tolist(), strict=True):
-            here = np.arange(start, end) % len(arcs)
-            ahead = np.concatenate(([0.0], np.cumsum(arcs[here])))
-            back = np.concatenate((np.cumsum(arcs[here][::-1])[::-1], [0.0]))
-            near_start = ahead[:-1] <= back[:-1]
-            turned = np.where(
-                near_start,
-                self._zb[start % len(arcs)] * np.exp(1j * ahead[:-1]),
-                self._zb[end % len(arcs)] * np.exp(-1j * back[:-1]),
-            )
-            out[here[1:]] = (turned / np.abs(turned))[1:]
-        return out
-
-
-def with_distinct_boundary(z: Complex, loop: Ints, fixed: Ints) -> Complex:
-    """z with neighbours on the circle that had rounded to one point moved apart by what doubles tell."""
-    zb = z[loop]
-    if (zb != np.roll(zb, -1)).all() and (np.angle(np.roll(zb, -1) / zb) > 0.0).all():
-        return z
-    boundary = _Boundary(zb, np.flatnonzero(np.isin(loop, fixed)))
-    out = z.copy()
-    out[loop] = boundary.points(boundary.fitted(np.maximum(boundary.arcs, SMALLEST_ARC)))
-    return out
-
-
-def doubtful_faces(z: Complex, corners: NDArray[np.int32], loop: Ints) -> Ints:
-    """Faces that are folded, or of which only rounding could say that they are not.
-
-    Some are flat; others are ears, faces of three neighbouring boundary vertices, on arcs of next to no height.
-    """
-    place = np.full(len(z), -1, dtype=np.int64)
-    place[loop] = np.arange(len(loop))
-    at = place[corners]
-    ears = np.flatnonzero((at >= 0).all(axis=0))
-    a, b, c = (z[corner] for corner in corners[:, ears])
-    longest = np.maximum(np.maximum(np.abs(b - a), np.abs(c - b)), np.abs(a - c))
-    return np.union1d(collapsed_faces(z, corners), ears[longest < DOUBTFUL_ARC])
-
-
-def with_sharp_ears(z: Complex, corners: NDArray[np.int32], loop: Ints, folds: Ints) -> Complex:
-    """z with the neighbours of folded ears' tips a little inside the circle, by less than 1e-12.
-
-    The tip of an ear is a boundary vertex of one face. On an arc under 3e-8 the three corners of the face lie on one
-    line but for rounding, and rounding alone has decided how it is wound. Where an ear leans on another one, its
-    sides go deeper than those of that one.
-    """
-    on_boundary = np.zeros(len(z), dtype=bool)
-    on_boundary[loop] = True
-    ears = corners[:, folds]
-    ears = ears[:, on_boundary[ears].all(axis=0)]
-    levels = _levels(ears, np.bincount(corners.reshape(-1), minlength=len(z)))
-    out, need = z, np.full(ears.shape[1], DEPTHS[0])
-    for deepest in DEPTHS:
-        depth = np.zeros(len(z))
-        for here, tips, sides in levels:
-            deeper = np.minimum(LEANING * depth[tips] + need[here], DEEPEST)
-            for side in sides:
-                np.maximum.at(depth, side, deeper)
-        moved = np.flatnonzero(depth)
-        out = z.copy()
-        out[moved] = z[moved] / np.abs(z[moved]) * (1.0 - depth[moved])
-        points = np.ascontiguousarray(out).view(np.float64).reshape(-1, 2)
-        left = orientation_signs(points, ears) <= 0
-        if not left.any():
-            break
-        need[left] = 2.0 * deepest
-    return out
-
-
-def _levels(ears: NDArray[np.int32], degree: Ints) -> list[tuple[Ints, Ints, Ints]]:
-    """The ears (3, k) level by level: which they are, their tips (k,) and the two sides of each, (2, k).
-
-    Vertices that are tips once the ears of the levels before are gone make the next level.
-    """
-    degree, left = degree.copy(), np.arange(ears.shape[1])
-    levels = []
-    while len(left):
-        is_tip = degree[ears[:, left]] == 1
-        ready = is_tip.sum(axis=0) == 1
-        if not ready.any():
-            break
-        here = left[ready]
-        which = np.argmax(is_tip[:, ready], axis=0)
-        columns = np.arange(len(here))
-        of_ear = ears[:, here].astype(np.int64)
-        levels.append((here, of_ear[which, columns], np.stack([of_ear[(which + k) % 3, columns] for k in (1, 2)])))
-        np.subtract.at(degree, of_ear.reshape(-1), 1)
-        left = left[~ready]
-    return levels
-
-
 def _respaced(
     surface: Surface,
     loop: Ints,
-    boundary: _Boundary,
+    boundary: CircleSpacing,
     arcs: Real,
     extend: Callable[[Complex], Complex],
     angles: AngleMean,

@@ -18,13 +18,15 @@ from ..options import DiskOptions, Laplacian, Method, Objective, Repair
 from ..progress import Callback, Progress
 from .anchors import anchored
 from .auto import solve_auto
-from .embedding import doubtful_faces, unfolded, with_distinct_boundary
+from .ears import doubtful_faces
+from .embedding import unfolded
 from .harmonic_measure import CentredMeasure, centred_measure
 from .placement import inside_disk, place_center, place_pins
 from .repair import Repair as RepairCost
 from .repair import recentred, repair_cost
 from .result import DiskMap, disk_map_result
 from .solution import Solution, solve_augmented_lagrangian, solve_linear, solve_newton
+from .spacing import with_distinct_boundary
 
 __all__ = ["DiskMapper"]
 

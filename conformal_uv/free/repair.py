@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk.embedding import DEAR
 from ..disk.repair import Repair, repair_cost, repaired
 from ..disk.untangling import untangled
 from ..mesh.surface import Surface
@@ -41,7 +40,7 @@ def unfolded(
     for mended in _ways(surface, inside, z, held, backend, progress):
         left = flipped_faces(mended, surface.corners)
         cost = repair_cost(surface, z, mended, folds, left)
-        dear = choice is Choice.AUTO and cost.angle_mean_after > cost.angle_mean_before + DEAR
+        dear = cost.angle_mean_after > cost.angle_mean_before + choice.pays
         if not dear and len(left) < (len(folds) if found is None else found.flipped_after):
             best, found = mended, cost
         if found is not None and not found.flipped_after:

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk.embedding import DEAR
 from ..disk.repair import Repair, repair_cost, repaired
 from ..disk.untangling import untangled
 from ..mesh.surface import Surface
@@ -65,7 +64,7 @@ def unfolded(
         if len(left) >= fewest:
             continue
         cost = repair_cost(surface, z, mended, folds, left)
-        if choice is Choice.ALWAYS or cost.angle_mean_after <= cost.angle_mean_before + DEAR:
+        if cost.angle_mean_after <= cost.angle_mean_before + choice.pays:
             best, found, fewest = mended, cost, len(left)
         if not fewest:
             break

@@ -33,7 +33,6 @@ Real = NDArray[np.float64]
 LARGE = 10_000  # vertices, from where on one puncture must do and "auto" does without Newton's method
 WATCHED = 2_000  # from where on "auto" gives Newton's method up once it makes the angles worse
 PUNCTURES = 4  # that are tried on smaller surfaces
-DEAR = 0.5  # degrees that `repair="auto"` does not pay
 
 
 class SphereSolution(NamedTuple):
@@ -159,7 +158,7 @@ class ClosedSurface:
         start = folds = inverted_faces(x, self.surface.corners)
         mean = self._angle_mean(x)
         if self._options.repair is not Repair.NEVER and len(folds):
-            most = mean + DEAR if self._options.repair is Repair.AUTO else np.inf
+            most = mean + self._options.repair.pays
             for moved in self._unfolded(x, folds):
                 left, cost = inverted_faces(moved, self.surface.corners), self._angle_mean(moved)
                 if len(left) < len(folds) and cost <= most:
