@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from .checker import write_checker
     from .disk import compute_texcoord_parametrization_conformal_disk
     from .exceptions import ConformalFilterException
+    from .free import compute_texcoord_parametrization_conformal_free
+    from .rectangle import compute_texcoord_parametrization_conformal_rectangle
     from .registration import register, unregister
     from .saving import save_textured_mesh
     from .sphere import compute_coord_conformal_sphere
@@ -21,6 +23,8 @@ __all__ = [
     "ConformalFilterException",
     "compute_coord_conformal_sphere",
     "compute_texcoord_parametrization_conformal_disk",
+    "compute_texcoord_parametrization_conformal_free",
+    "compute_texcoord_parametrization_conformal_rectangle",
     "register",
     "save_textured_mesh",
     "unregister",
@@ -31,6 +35,8 @@ _HOME = {
     "ConformalFilterException": "exceptions",
     "compute_coord_conformal_sphere": "sphere",
     "compute_texcoord_parametrization_conformal_disk": "disk",
+    "compute_texcoord_parametrization_conformal_free": "free",
+    "compute_texcoord_parametrization_conformal_rectangle": "rectangle",
     "register": "registration",
     "save_textured_mesh": "saving",
     "unregister": "registration",

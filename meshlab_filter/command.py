@@ -14,11 +14,22 @@ from conformal_uv.console.stages import Stages
 from conformal_uv.console.summary import print_summary
 from conformal_uv.console.terminal import plain
 from conformal_uv.files import check_distinct, check_place, is_standard_output, replaced_file
-from conformal_uv.options import Closed, Holes, Method, NonManifold, Orientation, Repair
+from conformal_uv.options import (
+    Closed,
+    CornerChoice,
+    Holes,
+    Method,
+    NonManifold,
+    Orientation,
+    Repair,
+    Shape,
+    Upright,
+)
 
 from .conversion import CHECKER, Conversion, check_filter_script, convert
 from .library import pymeshlab
 from .quality import Quality
+from .shape_options import shape_options
 from .targets import output_files
 from .texcoords import check_texture
 
@@ -31,10 +42,12 @@ EXPECTED = (ConformalUVError, pymeshlab.PyMeshLabException, OSError)
 
 @app.command()
 @interruptible
-def disk(
+def flatten(
     sources: Annotated[list[Path], typer.Argument(metavar="IN...", help="Meshes in any format pymeshlab reads.")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="OBJ, PLY, DAE or OFF file, or a folder.")],
-    method: Annotated[Method, typer.Option(help="How the map is found.")] = Method.AUTO,
+    shape: Annotated[Shape, typer.Option(help="What surfaces become.")] = Shape.DISK,
+    upright: Annotated[Upright, typer.Option(help="Axis that points up in the texture.")] = Upright.Z,
+    method: Annotated[Method | None, typer.Option(help="How a disk is found; by default auto.")] = None,
     holes: Annotated[Holes, typer.Option(help="Boundary loops but the longest.")] = Holes.FILL,
     closed: Annotated[Closed, typer.Option(help="Closed pieces and handles.")] = Closed.REFUSE,
     nonmanifold: Annotated[
@@ -44,7 +57,12 @@ def disk(
         Orientation, typer.Option(help="Faces wound against their neighbours.")
     ] = Orientation.REFUSE,
     repair: Annotated[Repair, typer.Option(help="Folded triangles.")] = Repair.AUTO,
-    center: Annotated[int | None, typer.Option(metavar="V", help="Vertex (from 0) sent to the center.")] = None,
+    center: Annotated[int | None, typer.Option(metavar="V", help="Vertex (from 0) sent to a disk's center.")] = None,
+    refine: Annotated[bool, typer.Option("--refine", help="Of free boundaries: a smaller angle error.")] = False,
+    corners: Annotated[
+        str | None, typer.Option(metavar="A,B,C,D", help="Boundary vertices (from 0), corners of a rectangle.")
+    ] = None,
+    corner_choice: Annotated[CornerChoice | None, typer.Option(help="Of a rectangle; by default turning.")] = None,
     texture: Annotated[str | None, typer.Option(metavar="FILE|checker", help="Image to link.")] = None,
     quality: Annotated[Quality, typer.Option(help="Per-face scalar to write (PLY keeps it).")] = Quality.NONE,
     filter_script: Annotated[
@@ -54,18 +72,20 @@ def disk(
     json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Only failures.")] = False,
 ) -> None:
-    """Give meshes conformal UVs: surfaces onto disks, angles kept."""
+    """Give meshes conformal UVs: surfaces onto disks or rectangles, or with their own outline, angles kept."""
     options = {
-        "method": method,
+        "upright": upright,
         "holes": holes,
         "closed": closed,
         "nonmanifold": nonmanifold,
         "orientation": orientation,
         "repair": repair,
-        "center": center,
         "quality": quality,
     }
     try:
+        options |= shape_options(
+            shape, method=method, center=center, refine=refine, corners=corners, corner_choice=corner_choice
+        )
         targets = _checked(sources, target, suffix, texture, filter_script, json_file)
     except EXPECTED as error:
         typer.echo(plain(_told(error)), err=True)
@@ -73,7 +93,7 @@ def disk(
     if not quiet and any(file.suffix.lower() == ".off" for file in targets):
         typer.echo("warning: MeshLab does not read the texture coordinates of .off files back", err=True)
     quiet = quiet or is_standard_output(json_file)
-    told = _convert_all(sources, targets, Conversion(texture, filter_script, options), quiet)
+    told = _convert_all(sources, targets, Conversion(texture, filter_script, options, shape), quiet)
     failures = [line for line in map(_failure, told) if line]
     if json_file is not None:
         try:

@@ -12,11 +12,12 @@ from xml.etree import ElementTree
 from conformal_uv import FileFormatError
 from conformal_uv.console.stages import Stages
 from conformal_uv.console.summary import unwrapped_summary
+from conformal_uv.options import Shape
 
 from .checker import write_checker
-from .disk import map_current_mesh
 from .library import pymeshlab
 from .saving import check_texture_linked, save_textured_mesh
+from .texcoord_map import map_current_mesh
 
 __all__ = ["CHECKER", "Conversion", "check_filter_script", "convert"]
 
@@ -25,11 +26,12 @@ CHECKER = "checker"
 
 @dataclass(frozen=True)
 class Conversion:
-    """What is done with every file; `options` as the filter takes them."""
+    """What is done with every file; `options` as `texcoord_map.map_current_mesh` takes them."""
 
     texture: str | None = None
     filter_script: Path | None = None
     options: dict[str, Any] = field(default_factory=dict)
+    shape: Shape = Shape.DISK
 
 
 def convert(source: Path, target: Path, conversion: Conversion, stages: Stages) -> dict[str, Any]:
@@ -56,7 +58,7 @@ def convert(source: Path, target: Path, conversion: Conversion, stages: Stages) 
             write_checker(texture)
         if texture is None:
             check_texture_linked(ms.current_mesh(), target)
-        mapped = map_current_mesh(ms, texture=texture, callback=stages, **conversion.options)
+        mapped = map_current_mesh(conversion.shape, ms, texture=texture, callback=stages, **conversion.options)
         stages("distortion", 0.0)
         summary = unwrapped_summary(mapped.result, str(source), str(target), stages.seconds)
         stages("write", 0.0)

@@ -2,37 +2,18 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterable
-from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from conformal_uv import Callback, OptionError, Unwrapped, unwrap
+from conformal_uv import Callback
+from conformal_uv.options import Shape
 
-from .current_mesh import read_current_mesh
-from .exceptions import pymeshlab_errors
-from .function_filters import check_function_filters
-from .quality import Quality, map_numbers, polygon_quality
-from .script_history import unrecorded
-from .texcoords import check_texture, new_texcoords, write_face_scalar, write_texcoords
+from .texcoord_map import map_current_mesh
 
-__all__ = ["Mapped", "compute_texcoord_parametrization_conformal_disk", "map_current_mesh"]
-
-NAME = "compute_texcoord_parametrization_conformal_disk"
-
-logger = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True, eq=False)
-class Mapped:
-    """What was done: the map of the polygons, and the numbers the filter returns."""
-
-    result: Unwrapped
-    numbers: dict[str, float]
+__all__ = ["compute_texcoord_parametrization_conformal_disk"]
 
 
 def compute_texcoord_parametrization_conformal_disk(
@@ -40,6 +21,7 @@ def compute_texcoord_parametrization_conformal_disk(
     *,
     method: str = "auto",
     objective: str | None = None,
+    upright: str = "z",
     holes: str = "fill",
     closed: str = "refuse",
     nonmanifold: str = "refuse",
@@ -73,6 +55,9 @@ def compute_texcoord_parametrization_conformal_disk(
         'auto' (default: the better of the next two), 'linear', 'newton', 'augmented-lagrangian'.
     objective : Enum
         'conformal' or 'dirichlet'; the default is the method's own.
+    upright : Enum
+        Axis of the surface that points up in the texture: 'z' (default), 'y' or 'none'. Parts that lie flat have the
+        next axis up; parts with pins or a boundary vertex are not turned.
     holes : Enum
         Boundary loops but the longest: 'fill' (for the solution only) or 'refuse'.
     closed : Enum
@@ -96,9 +81,9 @@ def compute_texcoord_parametrization_conformal_disk(
     selected_only : Boolean
         Map only selected faces (of a polygon, all its triangles); the others keep their coordinates.
     place : Enum
-        'fit' and 'pack': in the unit square; 'disk': on the unit disk around (0, 0).
+        'fit' and 'pack': in the unit square; 'disk': on the unit disk around (0, 0), one part over the other.
     margin : Float
-        Least distance between disks and to the sides of the square; by default none for one disk, 0.005 for several.
+        Least distance between parts and to the sides of the square; by default none about one, 0.005 for several.
     backend : Enum
         'auto', 'cholmod', 'superlu', 'multigrid'.
     texture : File Name
@@ -114,7 +99,8 @@ def compute_texcoord_parametrization_conformal_disk(
     dict of numbers
         charts, mapped_charts, faces, mapped_faces, torn_vertices, angle_error_mean, angle_error_rms, angle_error_sd,
         angle_error_max (degrees), quasi_conformal_median, quasi_conformal_max, conformal_energy, dirichlet_energy,
-        flipped_polygons, lost_to_double, lost_to_float32 (faces without area as stored), converged_charts.
+        flipped_polygons, lost_to_double, lost_to_float32 (faces without area as stored), converged_charts,
+        and where parts are placed in the unit square coverage (the share of it that they fill).
 
     Raises
     ------
@@ -123,68 +109,5 @@ def compute_texcoord_parametrization_conformal_disk(
     ConformalFilterException
         A PyMeshLabException: an option is not taken, or no part could be mapped; ``__cause__`` tells the kind.
     """
-    mapped = map_current_mesh(
-        ms,
-        method=method,
-        objective=objective,
-        holes=holes,
-        closed=closed,
-        nonmanifold=nonmanifold,
-        orientation=orientation,
-        repair=repair,
-        laplacian=laplacian,
-        center=center,
-        boundary_vertex=boundary_vertex,
-        pins=pins,
-        pin_mode=pin_mode,
-        seams=seams,
-        selected_only=selected_only,
-        place=place,
-        margin=margin,
-        backend=backend,
-        texture=texture,
-        quality=quality,
-        callback=callback,
-    )
-    return mapped.numbers
-
-
-def map_current_mesh(
-    ms: Any,
-    *,
-    selected_only: bool = False,
-    texture: str | PathLike[str] | None = None,
-    quality: str = "none",
-    **options: Any,
-) -> Mapped:
-    """The filter with all that is known of the map; `options` as `conformal_uv.unwrap` takes them."""
-    with pymeshlab_errors(NAME):
-        scalar = Quality.of("quality", quality)
-        if not isinstance(selected_only, bool | np.bool_):
-            raise OptionError(f"selected_only is {selected_only!r}; pass True or False.")
-        if texture is not None:
-            check_texture(texture)
-        source = read_current_mesh(ms)
-        with unrecorded(ms):
-            check_function_filters(ms)
-        selection = source.selected_polygons() if selected_only else None
-        result = unwrap(None, source.polygons, selection=selection, **options)
-        _check_mapped(result)
-        texcoords = new_texcoords(source, result.uv, result.mapped)
-        numbers = map_numbers(source, result, texcoords)
-        with unrecorded(ms):
-            write_texcoords(ms, source.mesh, texcoords, texture)
-            if scalar is not Quality.NONE:
-                polygon = source.wedges.polygon
-                values = polygon_quality(result, scalar)[polygon]
-                write_face_scalar(ms, source.mesh, values, result.mapped[polygon])
-    return Mapped(result, numbers)
-
-
-def _check_mapped(result: Unwrapped) -> None:
-    """Raise where no chart was mapped; log the reasons where some were not."""
-    failure = result.failure()
-    if failure is not None:
-        raise failure
-    if any(chart.error is not None for chart in result.charts):
-        logger.warning("%s", result.summary)
+    options: dict[str, Any] = locals()
+    return map_current_mesh(Shape.DISK, **options).numbers

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv import DistortionNumbers, Unwrapped, unwrap_numbers
+from conformal_uv import DistortionNumbers, FreeMap, RectangleMap, Unwrapped, unwrap_numbers
 from conformal_uv.options import Choice
 
 from .current_mesh import CurrentMesh
@@ -63,7 +63,19 @@ def map_numbers(source: CurrentMesh, result: Unwrapped, texcoords: Texcoords) ->
         "lost_to_float32": int(numbers.lost_to_float32.sum()),
         "converged_charts": numbers.converged_charts,
         **({} if numbers.coverage is None else {"coverage": numbers.coverage}),
+        **_shape_fields(result),
     }
+
+
+def _shape_fields(result: Unwrapped) -> dict[str, float]:
+    """What only maps with a free boundary, or a single rectangle, have."""
+    maps = [chart.map for chart in result.charts if chart.map is not None]
+    if isinstance(maps[0], FreeMap):
+        return {"crossings": sum(len(found.crossings) for found in maps if isinstance(found, FreeMap))}
+    if len(maps) == 1 and isinstance(maps[0], RectangleMap):
+        low, high = maps[0].modulus_bounds
+        return {"modulus": maps[0].modulus, "modulus_low": low, "modulus_high": high}
+    return {}
 
 
 def distortion_fields(distortion: DistortionNumbers) -> dict[str, float]:

@@ -8,12 +8,19 @@ from typing import Any
 
 from .disk import compute_texcoord_parametrization_conformal_disk
 from .exceptions import ConformalFilterException
+from .free import compute_texcoord_parametrization_conformal_free
 from .library import pymeshlab
+from .rectangle import compute_texcoord_parametrization_conformal_rectangle
 from .sphere import compute_coord_conformal_sphere
 
 __all__ = ["register", "unregister"]
 
-FILTERS = (compute_texcoord_parametrization_conformal_disk, compute_coord_conformal_sphere)
+FILTERS = (
+    compute_texcoord_parametrization_conformal_disk,
+    compute_texcoord_parametrization_conformal_free,
+    compute_texcoord_parametrization_conformal_rectangle,
+    compute_coord_conformal_sphere,
+)
 
 
 def register() -> None:

@@ -18,7 +18,7 @@ COUNTS = {3: "three", 4: "four"}
 NEEDED = {
     "center": "a center lies in the interior of a chart.",
     "boundary_vertex": "a boundary vertex lies on the outer boundary of a chart.",
-    "pins": "a disk takes exactly three, a rectangle four, all on the outer boundary of the chart.",
+    "pins": "a disk takes exactly three, a rectangle four as its corners, all on the outer boundary of the chart.",
 }
 
 

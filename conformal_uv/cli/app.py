@@ -14,6 +14,8 @@ from ..console.interrupt import interruptible
 from ..console.terminal import plain
 from ..errors import ConformalUVError, Remedy
 from .disk import disk
+from .free import free
+from .rectangle import rectangle
 from .report import report
 from .sample import sample
 from .sphere import sphere
@@ -25,7 +27,7 @@ CLOSED_PIPE = 141  # what a shell says of a command that SIGPIPE ended
 
 app = typer.Typer(
     name="conformal-uv",
-    help="Map surfaces to the unit disk or sphere with their angles kept.",
+    help="Flatten surfaces, or map them to the unit sphere, with their angles kept.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
@@ -64,8 +66,8 @@ def options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
     ] = False,
 ) -> None:
-    """Map surfaces to the unit disk or sphere with their angles kept."""
+    """Flatten surfaces, or map them to the unit sphere, with their angles kept."""
 
 
-for command in (disk, sphere, report, sample):
+for command in (disk, free, rectangle, sphere, report, sample):
     app.command()(interruptible(_told(command)))

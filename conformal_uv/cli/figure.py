@@ -13,7 +13,10 @@ from ..charts import Chart, Unwrapped
 from ..console.summary import shape_name
 from ..errors import MissingDependencyError, OptionError
 from ..files import replaced_file
+from ..free import FreeMap
 from ..operators import Distortion
+from ..options import Upright
+from ..rectangle import RectangleMap
 from ..sphere import SphereMap
 
 if TYPE_CHECKING:
@@ -24,6 +27,7 @@ __all__ = ["check_drawable", "draw_sphere_map", "draw_unwrapped"]
 SUFFIXES = (".png", ".pdf", ".svg")
 
 DETAILED = 20000  # faces up to which edges are drawn
+LIES_FLAT = 0.05  # sine of the slope, as of charts
 LIGHT = np.array([-0.35, 0.45, 0.82])
 
 
@@ -35,8 +39,8 @@ def check_drawable(path: Path) -> None:
         raise MissingDependencyError('--plot needs matplotlib: pip install "conformal-uv[plot]".')
 
 
-def draw_unwrapped(path: Path, result: Unwrapped, title: str) -> None:
-    """Draw an unwrapped mesh into a PNG, PDF or SVG file."""
+def draw_unwrapped(path: Path, result: Unwrapped, title: str, upright: Upright = Upright.NONE) -> None:
+    """Draw an unwrapped mesh into a PNG, PDF or SVG file, the surface `upright` as its charts are."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(15, 5.4), dpi=130, layout="constrained")
@@ -45,7 +49,7 @@ def draw_unwrapped(path: Path, result: Unwrapped, title: str) -> None:
     corners = np.concatenate([chart.mesh.V[chart.F] for chart in charts])
     image = np.concatenate([result.uv[chart.corner] for chart in charts])
     count = len(corners)
-    flat, depth, shade = _view(corners)
+    flat, depth, shade = _view(corners, upright)
     far_first = np.argsort(depth)
     _add_faces(left, flat[far_first], shade[far_first])
     left.set_title(f"{title}: {count} triangles")
@@ -109,12 +113,16 @@ def _draw_faces_by_error(
 def _caption(charts: list[Chart]) -> str:
     first = charts[0].map
     if len(charts) == 1 and first is not None:
-        return f"{shape_name(first)} map, conformal energy {first.conformal_energy:.3g}"
+        told = f"{shape_name(first)} map, conformal energy {first.conformal_energy:.3g}"
+        if isinstance(first, RectangleMap):
+            return f"{told}, modulus {first.modulus:.4g}"
+        crosses = isinstance(first, FreeMap) and len(first.crossings)
+        return f"{told}, boundary crosses itself" if crosses else told
     return f"{len(charts)} charts"
 
 
 def _view(
-    corners: NDArray[np.float64],
+    corners: NDArray[np.float64], upright: Upright = Upright.NONE
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Triangles (m, 3, 3) seen along their mean normal: in the picture (m, 3, 2), depth (m,), colour (m, 4)."""
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -122,7 +130,7 @@ def _view(
     if np.linalg.norm(mean) < 1e-3 * np.linalg.norm(cross, axis=1).sum():
         mean = np.array([1.0, -1.0, 0.8])
     front = mean / np.linalg.norm(mean)
-    up = np.array([0.0, 1.0, 0.0]) if abs(front[1]) < 0.8 else np.array([0.0, 0.0, 1.0])
+    up = _up(front, upright)
     right = np.cross(up, front)
     right /= np.linalg.norm(right)
     axes = np.stack((right, np.cross(front, right), front))
@@ -132,6 +140,15 @@ def _view(
     light = 0.97 * (0.5 + 0.5 * facing) ** 1.5
     colour = np.column_stack((light, 0.97 * light, 0.92 * light, np.ones(len(corners))))
     return turned[:, :, :2], turned[:, :, 2].mean(axis=1), colour
+
+
+def _up(front: NDArray[np.float64], upright: Upright) -> NDArray[np.float64]:
+    """What is up in the picture of a surface seen from `front`: as of its charts, else y, or z of what faces y."""
+    y, z = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+    if upright is Upright.NONE:
+        return y if abs(front[1]) < 0.8 else z
+    axis, beyond = (z, y) if upright is Upright.Z else (y, -z)
+    return axis if np.linalg.norm(np.cross(front, axis)) > LIES_FLAT else beyond
 
 
 def _joined(charts: list[Chart]) -> Distortion:

@@ -221,14 +221,20 @@ def iterations_text(chart: dict[str, Any]) -> str:
 
 
 def _warnings(charts: list[dict[str, Any]]) -> list[str]:
-    """Faces too small for doubles or for the single precision in which programs keep UVs."""
+    """Faces too small for doubles or for the single precision in which programs keep UVs; charts over themselves."""
     double = sum(chart.get("lost_to_double", 0) for chart in charts)
     single = sum(chart.get("lost_to_float32", 0) for chart in charts)
     told = []
     if double:
-        told.append(f"crowded: {double} triangles are too small in the disk for double precision")
+        told.append(f"crowded: {double} triangles are too small in the map for double precision")
     if single > double:
         told.append(f"crowded: {single} triangles vanish where UVs are kept in single precision; cut the surface")
+    crossing = sum(chart.get("crossings", 0) > 0 for chart in charts)
+    if crossing:
+        who = "the boundary" if len(charts) == 1 else f"that of {crossing} charts"
+        told.append(
+            f"overlap: {who} crosses itself, and parts share their texture; cut the surface, or map it to disks"
+        )
     return told
 
 

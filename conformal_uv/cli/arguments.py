@@ -1,0 +1,64 @@
+"""What several commands take, each said once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..options import Backend, Closed, Holes, Laplacian, NonManifold, Orientation, Place, Repair, Upright
+
+__all__ = [
+    "BackendName",
+    "ClosedPieces",
+    "FoldedFaces",
+    "HoleLoops",
+    "JsonFile",
+    "MeshFormat",
+    "NonManifoldParts",
+    "PictureFile",
+    "PlaceInSquare",
+    "Quiet",
+    "Seams",
+    "Source",
+    "Split",
+    "SquareMargin",
+    "Target",
+    "UpAxis",
+    "Weights",
+    "Winding",
+]
+
+Source = Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL, NPZ, GLB ...; - is stdin.")]
+Target = Annotated[Path, typer.Argument(metavar="OUT", help="Mesh with UVs: OBJ, PLY or NPZ; - is stdout.")]
+
+UpAxis = Annotated[Upright, typer.Option(help="Axis of the surface that points up in the texture.")]
+Seams = Annotated[
+    str | None,
+    typer.Option(metavar="FILE|uv", help="Edges to cut along: lines of two vertices, or where UVs are torn."),
+]
+HoleLoops = Annotated[Holes, typer.Option(help="Boundary loops but the longest.")]
+ClosedPieces = Annotated[Closed, typer.Option(help="Closed pieces and handles.")]
+NonManifoldParts = Annotated[NonManifold, typer.Option(help="Edges of three faces, pieces that touch in a vertex.")]
+Winding = Annotated[Orientation, typer.Option(help="Faces wound against their neighbours.")]
+Weights = Annotated[Laplacian, typer.Option(help="Weights.")]
+FoldedFaces = Annotated[Repair, typer.Option(help="Folded triangles.")]
+PlaceInSquare = Annotated[Place, typer.Option(help="Placing in the unit square.")]
+SquareMargin = Annotated[
+    float | None,
+    typer.Option(metavar="M", help="Least distance between charts and to the square's sides, a part of its side."),
+]
+BackendName = Annotated[Backend, typer.Option(help="Factorization library.")]
+
+Split = Annotated[
+    bool, typer.Option("--split", help="Write vertices split at seams, for programs that know one UV a vertex.")
+]
+MeshFormat = Annotated[
+    str | None, typer.Option(metavar="obj|ply|npz", help="Of standard input and output (-); by default obj.")
+]
+JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")]
+PictureFile = Annotated[
+    Path | None, typer.Option(metavar="FILE", help="Draw the surface, the flattened mesh and its angle error.")
+]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar and no table.")]

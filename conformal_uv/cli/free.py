@@ -1,0 +1,75 @@
+"""conformal-uv free: surfaces laid into the plane with a boundary that takes its own shape."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from ..options import (
+    Backend,
+    Closed,
+    Holes,
+    Laplacian,
+    NonManifold,
+    Orientation,
+    Place,
+    Repair,
+    Shape,
+    Upright,
+)
+from .arguments import (
+    BackendName,
+    ClosedPieces,
+    FoldedFaces,
+    HoleLoops,
+    JsonFile,
+    MeshFormat,
+    NonManifoldParts,
+    PictureFile,
+    PlaceInSquare,
+    Quiet,
+    Seams,
+    Source,
+    Split,
+    SquareMargin,
+    Target,
+    UpAxis,
+    Weights,
+    Winding,
+)
+from .unwrapping import unwrap_file
+
+__all__ = ["free"]
+
+
+def free(
+    source: Source,
+    target: Target,
+    refine: Annotated[
+        bool, typer.Option("--refine", help="Move all vertices to a smaller angle error, where there is one.")
+    ] = False,
+    upright: UpAxis = Upright.Z,
+    seams: Seams = None,
+    holes: HoleLoops = Holes.FILL,
+    closed: ClosedPieces = Closed.REFUSE,
+    nonmanifold: NonManifoldParts = NonManifold.REFUSE,
+    orientation: Winding = Orientation.REFUSE,
+    laplacian: Weights = Laplacian.AUTO,
+    repair: FoldedFaces = Repair.AUTO,
+    place: PlaceInSquare = Place.FIT,
+    margin: SquareMargin = None,
+    backend: BackendName = Backend.AUTO,
+    split: Split = False,
+    format: MeshFormat = None,
+    json_file: JsonFile = None,
+    plot: PictureFile = None,
+    quiet: Quiet = False,
+) -> None:
+    """Lay surfaces with disk topology into the plane, each with its own outline.
+
+    What can be unrolled comes out unrolled, its lengths kept up to one scale. One surface fills the unit square of
+    texture space one way; several charts are packed into it by their outlines.
+    """
+    options: dict[str, Any] = locals()
+    unwrap_file(Shape.FREE, **options)

@@ -1,0 +1,83 @@
+"""conformal-uv rectangle: surfaces onto rectangles."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from ..options import (
+    Backend,
+    Closed,
+    CornerChoice,
+    Holes,
+    Laplacian,
+    NonManifold,
+    Orientation,
+    Place,
+    Repair,
+    Shape,
+    Upright,
+)
+from .arguments import (
+    BackendName,
+    ClosedPieces,
+    FoldedFaces,
+    HoleLoops,
+    JsonFile,
+    MeshFormat,
+    NonManifoldParts,
+    PictureFile,
+    PlaceInSquare,
+    Quiet,
+    Seams,
+    Source,
+    Split,
+    SquareMargin,
+    Target,
+    UpAxis,
+    Weights,
+    Winding,
+)
+from .numbers import four_numbers
+from .unwrapping import unwrap_file
+
+__all__ = ["rectangle"]
+
+
+def rectangle(
+    source: Source,
+    target: Target,
+    corners: Annotated[
+        str | None,
+        typer.Option(metavar="A,B,C,D", help="Boundary vertices (from 0), along the boundary, that become corners."),
+    ] = None,
+    corner_choice: Annotated[
+        CornerChoice,
+        typer.Option(help="Of corners not given: where the boundary turns most, or the least change of area."),
+    ] = CornerChoice.TURNING,
+    upright: UpAxis = Upright.Z,
+    seams: Seams = None,
+    holes: HoleLoops = Holes.FILL,
+    closed: ClosedPieces = Closed.REFUSE,
+    nonmanifold: NonManifoldParts = NonManifold.REFUSE,
+    orientation: Winding = Orientation.REFUSE,
+    laplacian: Weights = Laplacian.AUTO,
+    repair: FoldedFaces = Repair.AUTO,
+    place: PlaceInSquare = Place.FIT,
+    margin: SquareMargin = None,
+    backend: BackendName = Backend.AUTO,
+    split: Split = False,
+    format: MeshFormat = None,
+    json_file: JsonFile = None,
+    plot: PictureFile = None,
+    quiet: Quiet = False,
+) -> None:
+    """Map surfaces with disk topology onto rectangles, their boundary exactly onto the sides.
+
+    How long the rectangle is for its width, its modulus, follows from the surface and the corners. One surface fills
+    the unit square of texture space one way; several charts are packed into it.
+    """
+    options: dict[str, Any] = locals()
+    options["pins"] = four_numbers(options.pop("corners"))
+    unwrap_file(Shape.RECTANGLE, **options)

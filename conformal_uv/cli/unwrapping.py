@@ -1,0 +1,78 @@
+"""What the commands disk, free and rectangle do: a mesh file in, the same mesh with conformal UVs out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import typer
+
+from ..charts import Unwrapped, unwrap
+from ..console.stages import Stages
+from ..console.summary import print_summary, unwrapped_summary
+from ..console.terminal import plain
+from ..errors import Remedy
+from ..files import read_mesh, write_mesh
+from ..options import Shape, Upright
+from .figure import draw_unwrapped
+from .outputs import Outputs
+from .seams import read_seams
+
+__all__ = ["unwrap_file"]
+
+
+def unwrap_file(
+    shape: Shape,
+    *,
+    source: Path,
+    target: Path,
+    seams: str | None,
+    upright: Upright,
+    split: bool,
+    format: str | None,
+    json_file: Path | None,
+    plot: Path | None,
+    quiet: bool,
+    **options: Any,
+) -> None:
+    """Read, map, write and tell; `options` are those of `unwrap`.
+
+    Raises
+    ------
+    ConformalUVError, OSError
+        Nothing could be mapped, or not all be written.
+    typer.Exit
+        Some of several charts were not mapped; the others are written.
+    """
+    outputs = Outputs(source, target, json_file, plot, format)
+    outputs.check()
+    with Stages(quiet=quiet) as stages:
+        stages("read", 0.0)
+        mesh_file = read_mesh(source, format=format)
+        cut = read_seams(seams, mesh_file)
+        result = unwrap(None, mesh_file.mesh, shape=shape, seams=cut, upright=upright, callback=stages, **options)
+        failure = result.failure(Remedy.as_flag)
+        if failure is not None:
+            raise failure
+        stages("distortion", 0.0)
+        summary = unwrapped_summary(result, str(source), str(target), stages.seconds)
+        corner_uv = _corner_uv(result, mesh_file.mesh.sizes)
+        outputs.write(
+            stages,
+            summary,
+            lambda path: write_mesh(path, mesh_file, corner_uv=corner_uv, split=split, format=format),
+            lambda path: draw_unwrapped(path, result, source.name, upright),
+        )
+    if not quiet:
+        print_summary(summary, stderr=outputs.on_stdout)
+    if not result.mapped[result.chart_of_face >= 0].all():
+        typer.echo(plain(result.told(Remedy.as_flag)), err=True)
+        raise typer.Exit(1)
+
+
+def _corner_uv(result: Unwrapped, sizes: np.ndarray) -> np.ndarray:
+    """Texture coordinates of all corners; NaN, which leaves a file's own ones, where nothing was mapped."""
+    uv = result.uv.copy()
+    uv[~np.repeat(result.mapped, sizes)] = np.nan
+    return uv
