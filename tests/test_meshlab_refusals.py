@@ -120,27 +120,46 @@ def test_registered_it_is_a_filter_like_pymeshlabs_own(face_of_mask):
     meshlab_filter.unregister()
 
 
-def test_options_and_their_defaults_are_those_of_unwrap():
-    ours, core = (inspect.signature(f).parameters for f in (conformal_disk, cuv.unwrap))
+UNWRAPS = {
+    "V", "polygons", "selection", "rotation", "tolerance", "relative_tolerance", "max_iterations", "outer_loop", "shape"
+}  # fmt: skip
+DISKS = {"method", "objective", "pins", "pin_mode", "center", "boundary_vertex"}
+OWN = {"ms", "selected_only", "texture", "quality"}
+
+
+@pytest.mark.parametrize(
+    ("shape", "own", "others"),
+    [
+        ("disk", OWN, {"refine", "corner_choice"}),
+        ("free", OWN, {*DISKS, "corner_choice"}),
+        ("rectangle", {*OWN, "corners"}, {*DISKS, "refine"}),
+    ],
+)
+def test_options_and_their_defaults_are_those_of_unwrap(shape, own, others):
+    """But those that mean nothing for the shape; the corners of a rectangle are pins there."""
+    function = getattr(meshlab_filter, f"{NAME.removesuffix('disk')}{shape}")
+    ours, core = (inspect.signature(f).parameters for f in (function, cuv.unwrap))
     shared = ours.keys() & core.keys()
     assert {name: ours[name].default for name in shared} == {name: core[name].default for name in shared}
-    assert ours.keys() - shared == {"ms", "selected_only", "texture", "quality"}
-    assert core.keys() - shared == {
-        "V", "polygons", "selection", "rotation", "tolerance", "relative_tolerance", "max_iterations", "outer_loop"
-    }  # fmt: skip
+    assert ours.keys() - shared == own
+    assert core.keys() - shared == UNWRAPS | others
 
 
-def test_every_option_arrives_with_its_value(monkeypatch):
+@pytest.mark.parametrize("shape", ["disk", "free", "rectangle"])
+def test_every_option_arrives_with_its_value(monkeypatch, shape):
     arrived = {}
 
     class Found:
         numbers = {}
 
-    def taken(ms, **options):
-        arrived.update(options)
+    def taken(of, ms, **options):
+        arrived.update(options, shape=of)
         return Found
 
-    monkeypatch.setattr("meshlab_filter.disk.map_current_mesh", taken)
-    given = {name: object() for name in inspect.signature(conformal_disk).parameters if name != "ms"}
-    conformal_disk(None, **given)
-    assert arrived == given
+    monkeypatch.setattr(f"meshlab_filter.{shape}.map_current_mesh", taken)
+    function = getattr(meshlab_filter, f"{NAME.removesuffix('disk')}{shape}")
+    given = {name: object() for name in inspect.signature(function).parameters if name != "ms"}
+    function(None, **given)
+    if shape == "rectangle":
+        given["pins"] = given.pop("corners")
+    assert arrived == {**given, "shape": shape}
