@@ -26,6 +26,7 @@ from .ears import with_sharp_ears
 from .placement import inside_disk
 from .repair import repaired
 from .spacing import SMALLEST_ARC, CircleSpacing
+from .untangling import untangled
 
 __all__ = ["unfolded"]
 
@@ -37,6 +38,7 @@ Ints = NDArray[np.int64]
 EAR_ARC = 3e-8
 SHARES = (0.0, 1e-13, 1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0)  # of equal spacing
 MOST_MENDED = 0.01  # of the faces; where more are folded, local repair would move everything anyway
+MOST_UNTANGLED = 0.2  # of the faces
 ROUNDS = 4  # of widening ears
 CHEAP = 0.02  # degrees; nobody looks for less
 
@@ -66,8 +68,8 @@ def unfolded(
     """Positions with the fewest folds that the repair may pay for, of these with the least angle error; or z itself.
 
     In the order of their cost: ears sharpened within the rounding of the circle, patches around folds moved
-    (`repaired`), boundaries that take a growing share of equal spacing, extended by the Laplacian at hand and by the
-    surface's mean value weights, which are positive.
+    (`repaired`) or optimised (`untangled`), boundaries that take a growing share of equal spacing, extended by the
+    Laplacian at hand and by the surface's mean value weights, which are positive.
 
     Parameters
     ----------
@@ -108,7 +110,11 @@ def _ways(
     sharp = _tried(surface, angles, with_sharp_ears(z, corners, loop, np.union1d(folds, flipped_faces(z, corners))))
     yield sharp
     if len(sharp.folds):
-        yield _tried(surface, angles, _mended(surface, loop, sharp.z, progress))
+        mended = _tried(surface, angles, _mended(surface, loop, sharp.z, progress))
+        yield mended
+        for start in (mended, sharp):
+            if 0 < len(start.folds) <= MOST_UNTANGLED * surface.m:
+                yield _tried(surface, angles, _untangled(surface, loop, start.z, problem.backend, progress))
     means: list[NeighbourMeans] = []
 
     def by_mean_values(zb: Complex) -> Complex:
@@ -123,7 +129,9 @@ def _ways(
         progress("repair", number / len(SHARES))
         for extend in (problem.extend, by_mean_values):
             try:
-                yield _respaced(surface, loop, boundary, boundary.shared(share), extend, angles, progress)
+                yield _respaced(
+                    surface, loop, boundary, boundary.shared(share), extend, angles, problem.backend, progress
+                )
             except SolverError:
                 continue
 
@@ -140,6 +148,7 @@ def _respaced(
     arcs: Real,
     extend: Callable[[Complex], Complex],
     angles: AngleMean,
+    backend: str,
     progress: Progress,
 ) -> _Tried:
     """The extension of one boundary, arcs of folded ears widened to what doubles resolve, after local repair."""
@@ -160,14 +169,28 @@ def _respaced(
         arcs[narrow] = EAR_ARC
     if 0 < len(folds) <= max(100, MOST_MENDED * surface.m):
         z = _mended(surface, loop, z, progress)
+        folds = flipped_faces(z, corners)
+    if 0 < len(folds) <= MOST_UNTANGLED * surface.m:
+        z = _untangled(surface, loop, z, backend, progress)
     return _tried(surface, angles, z)
 
 
 def _mended(surface: Surface, loop: Ints, z: Complex, progress: Progress) -> Complex:
     """Local repair of the interior."""
+    inside = _interior(surface, loop)
+    return repaired(surface.corners, z, inside, lambda z: collapsed_faces(z, surface.corners), progress)
+
+
+def _untangled(surface: Surface, loop: Ints, z: Complex, backend: str, progress: Progress) -> Complex:
+    return untangled(
+        surface, z, _interior(surface, loop), lambda z: flipped_faces(z, surface.corners), backend, progress
+    )
+
+
+def _interior(surface: Surface, loop: Ints) -> NDArray[np.bool_]:
     inside = np.ones(surface.n, dtype=bool)
     inside[loop] = False
-    return repaired(surface.corners, z, inside, lambda z: collapsed_faces(z, surface.corners), progress)
+    return inside
 
 
 def _arcs_of(places: Ints, count: int) -> Ints:

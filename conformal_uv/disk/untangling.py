@@ -81,7 +81,10 @@ def _hardened(surface: Surface, z: Complex, patch: NDArray[np.bool_], backend: s
         patch[surface.loops[0][:2]] = False  # a similarity changes nothing
     counted = patch[surface.corners].any(axis=0)
     counted[surface.degenerate] = False
-    vertices, faces = np.flatnonzero(patch), np.flatnonzero(counted)
+    faces = np.flatnonzero(counted)
+    vertices = np.intersect1d(np.flatnonzero(patch), surface.corners[:, faces])  # others have nothing that holds them
+    if not len(vertices):
+        return z
     place = BarrierPlace(FaceDerivatives(surface, faces), vertices, z)
     size = float(np.abs(place.jacobian).mean())
     place = place.softened(_softness(float(place.jacobian.min()), size))

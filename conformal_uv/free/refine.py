@@ -44,8 +44,9 @@ def refined(
     counted[surface.degenerate] = False
     free = np.ones(surface.n, dtype=bool)
     free[[loop[0], loop[np.argmax(np.abs(z[loop] - z[loop[0]]))]]] = False
-    vertices = np.flatnonzero(free)
-    start = BarrierPlace(FaceDerivatives(surface, np.flatnonzero(counted)), vertices, z)
+    faces = np.flatnonzero(counted)
+    vertices = np.intersect1d(np.flatnonzero(free), surface.corners[:, faces])  # nothing holds the others
+    start = BarrierPlace(FaceDerivatives(surface, faces), vertices, z)
     if not start.finite or not len(vertices):
         return z, Status.STALLED
     progress("refinement", 0.0)
