@@ -82,7 +82,7 @@ class ChartMapper:
             found, used, notes = self._mapped(shape, options, vertices, callback)
         except (MeshError, SolverError) as error:
             return _failed(self._told(error))
-        z = self._framed(found, shape, options, fixed=bool(len(used["pins"])))
+        z = self._framed(found, shape, options, fixed=vertices.ordered and bool(len(used["pins"])))
         signed = signed_double_areas(planar_sides(z, self.mesh.F.T.astype(np.int32)))
         return ChartSolution(map=found, error=None, notes=notes, z=z, signed=signed, used=used)
 
