@@ -24,8 +24,8 @@ def turned(V: NDArray[np.float64], degrees: float, axis: int) -> NDArray[np.floa
 
 
 def rise_in_texture(V: NDArray[np.float64], F: NDArray[np.int64], uv: NDArray[np.float64], up: int) -> float:
-    """Angle in degrees from v to where the surface rises: the direction of the height's gradient in the texture, face by
-    face, as long as the gradient is on the surface, in the mean over the surface's area."""
+    """Angle in degrees from v to where the surface rises: the direction of the height's gradient in the texture, face
+    by face, as long as the gradient is on the surface, in the mean over the surface's area."""
     total = np.zeros(2)
     for face, q in zip(F, uv.reshape(-1, 3, 2), strict=True):
         p, sides = V[face], np.stack((q[1] - q[0], q[2] - q[0]))
