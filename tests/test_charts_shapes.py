@@ -196,3 +196,10 @@ def test_a_squeezed_face_does_not_turn_its_chart() -> None:
     w[corner] = w[others].mean() + 1e-12 * (w[corner] - w[others].mean()) + 0.2 * (w[others[0]] - w[others[1]])
     turn = upright_turn(V, F, w, np.empty(0, dtype=np.int64), Shape.DISK, Upright.Z)
     assert abs(np.degrees(np.angle(turn))) < 1.0
+
+
+@pytest.mark.parametrize("shape", ["free", "rectangle"])
+def test_no_chart_leaves_its_square_by_rounding(shape: str) -> None:
+    V, F = mask(300)
+    found = [cuv.unwrap(turned(V, degrees, 1), F, shape=shape, place="disk").uv for degrees in range(0, 60, 3)]
+    assert max(np.abs(uv).max() for uv in found) == 1.0
