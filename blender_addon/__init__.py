@@ -1,4 +1,4 @@
-"""Conformal Disk Unwrap, a Blender extension: UV islands mapped onto disks with their angles kept.
+"""Conformal Unwrap, a Blender extension: UV islands unrolled, or brought to disks and rectangles, angles kept.
 
 All mathematics is in the package conformal_uv, which the extension brings as a wheel.
 """

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import bpy
 
+from .choices import CENTERS, CLOSED, CORNER_CHOICES, METHODS, PLACES, SHAPES, UPRIGHT
 from .libraries import missing_library
-from .properties import CENTERS, CLOSED, DEFAULTS, METHODS, PLACES, Options
+from .properties import DEFAULTS, Options
 
 NAME = "conformal_uv"
 DONE, PARTLY, USAGE = 0, 1, 2  # exit codes
@@ -48,7 +49,7 @@ def parser():
     """The command's arguments."""
     given = argparse.ArgumentParser(
         prog=f"blender --command {NAME}",
-        description="Unwrap the meshes of a .blend file onto disks, keeping angles.",
+        description="Unwrap the meshes of a .blend file, keeping angles.",
         epilog="Exit code 0: every island was unwrapped; 1: some were not, or a file can not be used; 2: wrong usage.",
     )
     given.add_argument("input", metavar="IN.blend")
@@ -58,17 +59,21 @@ def parser():
     )
     given.add_argument("--json", metavar="REPORT", help="write the numbers to this file")
     for name, items, default in (
+        ("shape", SHAPES, DEFAULTS.shape),
         ("method", METHODS, DEFAULTS.method),
         ("closed", CLOSED, DEFAULTS.closed),
         ("place", PLACES, DEFAULTS.place),
         ("center", CENTERS, DEFAULTS.center),
+        ("corner_choice", CORNER_CHOICES, DEFAULTS.corner_choice),
+        ("upright", UPRIGHT, DEFAULTS.upright),
     ):
         names = [_spelled(identifier) for identifier, _, _ in items]
-        given.add_argument(f"--{name}", choices=names, default=_spelled(default))
+        given.add_argument(f"--{_spelled(name)}", choices=names, default=_spelled(default))
     given.add_argument("--rotation", type=float, default=0.0, metavar="DEGREES")
     given.add_argument("--margin", type=float, default=DEFAULTS.margin)
     given.add_argument("--uv-layer", default=DEFAULTS.uv_layer, metavar="NAME", help="default: the active one")
-    given.add_argument("--pins", action="store_true", help="three pinned UVs on an island's boundary are its pins")
+    given.add_argument("--pins", action="store_true", help="pinned UVs on an island's boundary are its pins or corners")
+    given.add_argument("--refine", action="store_true", help="the last percents of angle error, for --shape free")
     given.add_argument("--subsurf", action="store_true", help="map the subdivided surface")
     given.add_argument("--selected", action="store_true", help="only faces that are selected in the file")
     given.add_argument("--no-fill-holes", action="store_true")
@@ -143,11 +148,15 @@ def _misplaced(arguments):
 
 def _options(arguments):
     return Options(
+        shape=_identifier(arguments.shape),
         method=_identifier(arguments.method),
         fill_holes=not arguments.no_fill_holes,
         use_subsurf_data=arguments.subsurf,
         use_pins=arguments.pins,
+        corner_choice=_identifier(arguments.corner_choice),
+        refine=arguments.refine,
         center=_identifier(arguments.center),
+        upright=_identifier(arguments.upright),
         rotation=math.radians(arguments.rotation),
         repair=not arguments.no_repair,
         closed=_identifier(arguments.closed),

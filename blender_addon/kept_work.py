@@ -11,9 +11,20 @@ from typing import Any
 import numpy as np
 
 from conformal_uv import Callback, PolygonMesh, Unwrapped, Unwrapper
-from conformal_uv.options import Closed, Holes, Method, NonManifold, Orientation, Repair
+from conformal_uv.options import (
+    Closed,
+    CornerChoice,
+    Holes,
+    Method,
+    NonManifold,
+    Orientation,
+    Repair,
+    Shape,
+    Upright,
+)
 
-from .mesh_io import MeshArrays, pinned_vertices
+from .mesh_io import MeshArrays
+from .pins import offered_pins
 from .properties import Options
 
 Key = tuple[bytes, bool, str]
@@ -44,21 +55,21 @@ class Surface:
 
 
 class KeptWork:
-    """The unwrappers of the last call, with the last result of each."""
+    """The unwrappers of the last call, with the last result of each in every shape."""
 
     def __init__(self) -> None:
         self._unwrappers: dict[Key, Unwrapper] = {}
-        self._results: dict[Key, tuple[dict[str, Any], Unwrapped]] = {}
+        self._results: dict[Key, dict[str, tuple[dict[str, Any], Unwrapped]]] = {}
 
     def unwrapped(
         self, surface: Surface, options: Options, *, callback: Callback | None = None, backend: str = "auto"
     ) -> Unwrapped:
-        """The charts of the surface on unit disks.
+        """The charts of the surface, each in the square [-1, 1]^2.
 
         `backend` counts when there is no factorization yet. Errors are those of `conformal_uv.unwrap`.
         """
         key, asked = surface.key(options), _call(surface, options)
-        kept = self._results.get(key)
+        kept = self._results.get(key, {}).get(options.shape)
         if kept is not None and kept[0] == asked:
             return kept[1]
         unwrapper = self._unwrappers.get(key)
@@ -66,7 +77,7 @@ class KeptWork:
             unwrapper = _unwrapper(surface, options, callback, backend)
             self._unwrappers[key] = unwrapper
         result = unwrapper.unwrap(**asked, place="disk", callback=callback)
-        self._results[key] = asked, result
+        self._results[key] = {**self._results.get(key, {}), options.shape: (asked, result)}
         return result
 
     def fork(self) -> KeptWork:
@@ -108,11 +119,22 @@ def _unwrapper(surface: Surface, options: Options, callback: Callback | None, ba
 
 
 def _call(surface: Surface, options: Options) -> dict[str, Any]:
-    """Options that a factorization does not depend on, as keywords of Unwrapper.unwrap."""
-    return {
-        "method": Method[options.method],
-        "pins": set(pinned_vertices(surface.arrays, surface.chosen)) if options.use_pins else None,
-        "center": surface.active if options.center == "ACTIVE" else None,
+    """Options that a factorization does not depend on and that mean something for the shape, as keywords of
+    Unwrapper.unwrap."""
+    shape = Shape[options.shape]
+    pins = offered_pins(surface.arrays, surface.chosen, options)
+    call: dict[str, Any] = {
+        "shape": shape,
+        "upright": Upright[options.upright],
+        "pins": None if pins is None else set(pins),
         "rotation": options.rotation,
         "repair": Repair.AUTO if options.repair else Repair.NEVER,
     }
+    if shape is Shape.DISK:
+        call["method"] = Method[options.method]
+        call["center"] = surface.active if options.takes_active else None
+    elif shape is Shape.FREE:
+        call["refine"] = options.refine
+    else:
+        call["corner_choice"] = CornerChoice[options.corner_choice]
+    return call

@@ -5,12 +5,19 @@ import bpy
 from .operators import UV_OT_conformal_unwrap
 from .sphere import OBJECT_OT_conformal_sphere
 
+UNWRAPS = (  # the commonest first
+    ("FREE", "Conformal Unwrap"),
+    ("DISK", "Conformal Disk Unwrap"),
+    ("RECTANGLE", "Conformal Rectangle Unwrap"),
+)
+
 
 def draw(self, context):
     layout = self.layout
     layout.operator_context = "INVOKE_DEFAULT"
     layout.separator()
-    layout.operator(UV_OT_conformal_unwrap.bl_idname)
+    for shape, text in UNWRAPS:
+        layout.operator(UV_OT_conformal_unwrap.bl_idname, text=text).shape = shape
 
 
 def draw_for_objects(self, context):

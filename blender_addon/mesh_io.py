@@ -37,6 +37,8 @@ class MeshArrays:
         Vertices of visible faces whose UV is pinned.
     pinned : (p,) bool
         Visible faces with a pinned UV.
+    alone : (a,) int32
+        Selected vertices of no selected face.
     """
 
     V: NDArray[np.float32]
@@ -47,6 +49,7 @@ class MeshArrays:
     hidden: NDArray[np.bool_]
     pins: NDArray[np.int32]
     pinned: NDArray[np.bool_]
+    alone: NDArray[np.int32]
 
     def digest(self, chosen: NDArray[np.bool_]) -> bytes:
         """A fingerprint of the surface, its seams and the chosen faces (p,)."""
@@ -84,16 +87,8 @@ def read_mesh(mesh: bpy.types.Mesh, uv_layer: str) -> MeshArrays:
         hidden=hidden,
         pins=corners[pinned],
         pinned=pinned_faces,
+        alone=_alone(mesh, corners[np.repeat(selected & ~hidden, np.diff(starts))]),
     )
-
-
-def pinned_vertices(arrays: MeshArrays, chosen: NDArray[np.bool_]) -> list[int]:
-    """Pinned vertices that the chosen faces use, each once, in the order of the corners."""
-    used = np.zeros(len(arrays.V), dtype=bool)
-    used[arrays.corners[np.repeat(chosen, np.diff(arrays.starts))]] = True
-    pins = arrays.pins[used[arrays.pins]]
-    _, first = np.unique(pins, return_index=True)
-    return pins[np.sort(first)].tolist()
 
 
 def selected_uvs(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
@@ -213,6 +208,13 @@ def _attribute(
     if attribute is not None and count and attribute.data_type == TYPES[np.dtype(dtype).kind, width]:
         attribute.data.foreach_get(field, values)
     return values if width == 1 else values.reshape(count, width)
+
+
+def _alone(mesh: bpy.types.Mesh, of_selected_faces: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Selected vertices other than these."""
+    alone = _attribute(mesh, ".select_vert", "value", np.bool_, len(mesh.vertices))
+    alone[of_selected_faces] = False
+    return np.flatnonzero(alone).astype(np.int32)
 
 
 def _starts(mesh: bpy.types.Mesh, p: int, k: int) -> NDArray[np.int32]:

@@ -5,9 +5,10 @@ from dataclasses import replace
 import bpy
 
 from . import last_result
+from .choices import SHAPES
 from .edit_mode import follows_uv_selection, target_objects
 from .libraries import missing_library
-from .properties import Options, UnwrapProperties
+from .properties import SHOWN, SHOWN_FOR_ALL, Options, UnwrapProperties
 
 MANY_FACES = 50_000  # from here on the window gets a thread and a progress text
 
@@ -22,10 +23,10 @@ def refusal(context: bpy.types.Context) -> str:
 
 
 class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
-    """Map each island of the selected faces onto a disk, keeping angles"""
+    """Map each island of the selected faces to a disk, its own outline or a rectangle, keeping angles"""
 
     bl_idname = "uv.conformal_unwrap"
-    bl_label = "Conformal Disk Unwrap"
+    bl_label = "Conformal Unwrap"
     bl_options = {"REGISTER", "UNDO"}
 
     _worker = None
@@ -37,6 +38,12 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
         if why:
             cls.poll_message_set(why)
         return not why
+
+    @classmethod
+    def description(cls, context, properties):
+        """The tooltip of a menu entry, each of which has its shape."""
+        (told,) = (text for identifier, _, text in SHAPES if identifier == properties.shape)
+        return f"Unwrap each island of the selected faces, keeping angles. {told}"
 
     def invoke(self, context, event):
         """From the window: large meshes are solved in a thread, then written by execute from what it kept."""
@@ -57,7 +64,7 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
     def modal(self, context, event):
         if event.type == "ESC" and event.value == "PRESS":
             self._worker.cancel(context)
-            self.report({"INFO"}, "Conformal Disk Unwrap cancelled; nothing was changed")
+            self.report({"INFO"}, "Conformal Unwrap cancelled; nothing was changed")
             return {"CANCELLED"}
         if event.type == "TIMER":
             if self._worker.running:
@@ -93,12 +100,7 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for names in (
-            ("method", "center", "rotation"),
-            ("place", "margin", "correct_aspect"),
-            ("faces", "fill_holes", "closed", "repair", "use_pins", "use_subsurf_data"),
-            ("uv_layer",),
-        ):
+        for names in (("shape", *SHOWN[self.shape]), *SHOWN_FOR_ALL):
             column = layout.column()
             for name in names:
                 column.prop(self, name)

@@ -19,8 +19,8 @@ from .mesh_io import DEFAULT_LAYER, MeshArrays, new_mesh, read_uv
 from .properties import Options
 from .tasks import Task
 
-SHAPES = ("CONVEX", "AABB")  # how Blender sees islands; after Esc was pressed, 4.3 still packs by the second
-FILLED = 0.8  # of a cell's side by its disk, before packing
+OUTLINES = ("CONVEX", "AABB")  # how Blender sees islands; after Esc was pressed, 4.3 still packs by the second
+FILLED = 0.8  # of a cell's side by its island, before packing
 
 
 def placed(
@@ -28,20 +28,20 @@ def placed(
 ) -> list[NDArray[np.floating]]:
     """UVs (k, 2) of every task's corners, in Object Mode; the islands of all of them in one unit square.
 
-    What packs is what the options ask for, and the other where that can not: rectangle-packer may be missing, and
-    Blender's packer does nothing after Esc was pressed somewhere (4.3). `remarks` is told.
+    What packs is what the options ask for, and the other where that can not: xatlas and rectangle-packer may be
+    missing, and Blender's packer does nothing after Esc was pressed somewhere (4.3). `remarks` is told.
     """
     if options.place == "PACK":
-        packed = pack_with_blender(context, tasks, options.margin)
+        packed = pack_with_blender(context, tasks, options)
         if packed is not None:
             return packed
         remarks.append("Blender's packer left the islands as they were; conformal_uv packed them")
     try:
         return _packed_by_us(tasks, options.margin)
     except MissingDependencyError:
-        packed = None if options.place == "PACK" else pack_with_blender(context, tasks, options.margin)
+        packed = None if options.place == "PACK" else pack_with_blender(context, tasks, options)
         remarks.append(
-            "rectangle-packer is not installed; "
+            "neither xatlas nor rectangle-packer is installed; "
             + ("Blender packed the islands" if packed is not None else "the islands lie in a grid")
         )
         return packed if packed is not None else _in_cells(tasks)
@@ -56,11 +56,11 @@ def _packed_by_us(tasks: list[Task], margin: float) -> list[NDArray[np.floating]
 
 
 def pack_with_blender(
-    context: bpy.types.Context, tasks: list[Task], margin: float
+    context: bpy.types.Context, tasks: list[Task], options: Options
 ) -> list[NDArray[np.floating]] | None:
     """The same by Blender, the islands at their relative sizes; None where its packer does nothing.
 
-    Rotation and shape of the disks are kept.
+    Islands are neither turned nor stretched.
     """
     unit = max(_extent(task) for task in tasks)
     made = [
@@ -68,7 +68,8 @@ def pack_with_blender(
         for task, uv in zip(tasks, _in_cells(tasks), strict=True)
     ]
     try:
-        if not _pack(context, made, margin):
+        outlines = OUTLINES if options.shape == "DISK" else ("CONCAVE", *OUTLINES)
+        if not _pack(context, made, options.margin, outlines):
             return None
         return [_read_back(task, mesh) for task, mesh in zip(tasks, made, strict=True)]
     finally:
@@ -76,7 +77,7 @@ def pack_with_blender(
 
 
 def _in_cells(tasks: list[Task]) -> list[NDArray[np.floating]]:
-    """Each disk in a cell of the square: no two islands then share a UV and merge into one."""
+    """Each island in a cell of the square: no two islands then share a UV and merge into one."""
     cells = int(np.ceil(np.sqrt(sum(len(task.solved.charts) for task in tasks))))
     first, out = 0, []
     for task in tasks:
@@ -108,14 +109,14 @@ def _read_back(task: Task, mesh: bpy.types.Mesh) -> NDArray[np.float32]:
     return uv
 
 
-def _pack(context: bpy.types.Context, meshes: list[bpy.types.Mesh], margin: float) -> bool:
-    """Run Blender's packer; whether it moved anything."""
+def _pack(context: bpy.types.Context, meshes: list[bpy.types.Mesh], margin: float, outlines: tuple[str, ...]) -> bool:
+    """Run Blender's packer on the first of these outlines that it can pack; whether it moved anything."""
     with _edited(context, meshes) as objects:
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.uv.select_all(action="SELECT")
         bpy.ops.uv.average_islands_scale()
         before = _uvs(objects)
-        for shape in SHAPES:
+        for shape in outlines:
             bpy.ops.uv.pack_islands(
                 rotate=False, scale=True, margin_method="FRACTION", margin=margin, shape_method=shape
             )

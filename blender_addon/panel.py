@@ -3,6 +3,7 @@
 import bpy
 
 from . import last_result
+from .choices import SHAPES
 from .operators import UV_OT_conformal_select_folded, UV_OT_conformal_unwrap
 
 MOST_OBJECTS = 8
@@ -11,7 +12,7 @@ MOST_OBJECTS = 8
 class UV_PT_conformal_unwrap(bpy.types.Panel):
     """Numbers of the last conformal unwrap"""
 
-    bl_label = "Conformal Disk Unwrap"
+    bl_label = "Conformal Unwrap"
     bl_space_type = "IMAGE_EDITOR"
     bl_region_type = "UI"
     bl_category = "Conformal UV"
@@ -22,9 +23,10 @@ class UV_PT_conformal_unwrap(bpy.types.Panel):
 
     def draw(self, context):
         layout = self.layout
-        row = layout.row()
+        row = layout.row(align=True)
         row.operator_context = "INVOKE_DEFAULT"
-        row.operator(UV_OT_conformal_unwrap.bl_idname, icon="UV")
+        for shape, name, _ in SHAPES:
+            row.operator(UV_OT_conformal_unwrap.bl_idname, text=name).shape = shape
         result = last_result.last()
         if result is None:
             layout.label(text="Nothing unwrapped yet")
@@ -62,6 +64,7 @@ def rows(ob):
             ("Angle error, rms", f"{quality.angle_rms:.3g}°"),
             ("Angle error, largest", f"{quality.angle_max:.3g}°"),
             ("Area ratio", "-" if quality.area_ratio is None else f"{quality.area_ratio:.3g}"),
+            ("Texture covered", "-" if ob.coverage is None else f"{100.0 * ob.coverage:.0f} %"),
             ("Flipped faces", str(ob.flipped)),
             ("Lost to float32", str(ob.lost_to_float32)),
         ]

@@ -5,74 +5,25 @@ from dataclasses import dataclass, fields
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
-from conformal_uv.options import Closed, Method
+from conformal_uv.options import Closed, CornerChoice, Method, Shape, Upright
 
-
-def items(told):
-    """Items of an EnumProperty: the library's choices by their Python names, each with its label and description."""
-    return tuple((choice.name, label, description) for choice, (label, description) in told.items())
-
-
-METHODS = items(
-    {
-        Method.AUTO: (
-            "Automatic",
-            "Linear or Newton, whichever keeps the angles of an island better",
-        ),
-        Method.LINEAR: (
-            "Linear",
-            "One factorization: the Riemann map read off a Green's function; the fastest",
-        ),
-        Method.NEWTON: (
-            "Newton",
-            "The least conformal energy, by Newton's method on the boundary angles; where an island is crowded, Linear "
-            "may keep angles better",
-        ),
-        Method.AUGMENTED_LAGRANGIAN: (
-            "Augmented Lagrangian",
-            "The algorithm of Choi's report with three pins; slow, for comparison",
-        ),
-    }
-)
-CENTERS = (
-    ("AUTOMATIC", "Automatic", "The vertex deepest inside each island"),
-    ("ACTIVE", "Active Vertex", "The active vertex of each object, in the island in whose interior it lies"),
-)
-CLOSED = items(
-    {
-        Closed.REFUSE: ("Refuse", "Leave islands without a boundary, or with handles, as they are and say so"),
-        Closed.CUT: ("Cut", "Cut them open along edges"),
-    }
-)
-PLACES = (
-    (
-        "FIT",
-        "Fit the Square",
-        "One island fills the unit square; several are packed by conformal_uv: of all objects in Edit Mode together, "
-        "of selected objects in Object Mode each by itself",
-    ),
-    ("PACK", "Keep Size and Pack", "Islands keep their relative size; Blender packs those of all objects together"),
-)
-FACES = (
-    (
-        "SELECTED",
-        "Selected",
-        "Selected, visible faces; in Object Mode all visible faces of a mesh with no face selected",
-    ),
-    ("ALL", "All Visible", "All visible faces"),
-)
+from .choices import CENTERS, CLOSED, CORNER_CHOICES, FACES, METHODS, PLACES, SHAPES, UPRIGHT
 
 
 @dataclass(frozen=True)
 class Options:
     """What the user chose; fields as the operator's properties."""
 
+    shape: str = Shape.DISK.name
     method: str = Method.AUTO.name
     fill_holes: bool = True
     correct_aspect: bool = True
     use_subsurf_data: bool = False
     use_pins: bool = False
+    corner_choice: str = CornerChoice.TURNING.name
+    refine: bool = False
     center: str = "AUTOMATIC"
+    upright: str = Upright.Z.name
     rotation: float = 0.0
     repair: bool = True
     closed: str = Closed.REFUSE.name
@@ -87,13 +38,40 @@ class Options:
         """Taken from anything with attributes of these names."""
         return cls(**{field.name: getattr(properties, field.name) for field in fields(cls)})
 
+    @property
+    def takes_pins(self) -> bool:
+        """Whether pins mean something; a free boundary has none."""
+        return self.use_pins and self.shape != Shape.FREE.name
+
+    @property
+    def takes_active(self) -> bool:
+        """Whether the active vertex is asked for; only disks have a center."""
+        return self.shape == Shape.DISK.name and self.center == "ACTIVE"
+
+    @property
+    def takes_selected_corners(self) -> bool:
+        """Whether selected vertices may be the corners of rectangles."""
+        return self.shape == Shape.RECTANGLE.name and self.use_pins
+
 
 DEFAULTS = Options()
+SHOWN = {  # names in the redo panel, by shape and then for all
+    Shape.DISK.name: ("method", "center", "use_pins"),
+    Shape.FREE.name: ("refine",),
+    Shape.RECTANGLE.name: ("corner_choice", "use_pins"),
+}
+SHOWN_FOR_ALL = (
+    ("upright", "rotation"),
+    ("place", "margin", "correct_aspect"),
+    ("faces", "fill_holes", "closed", "repair", "use_subsurf_data"),
+    ("uv_layer",),
+)
 
 
 class UnwrapProperties:
     """Properties of the operator, named as Blender's own unwrap names them where it has them."""
 
+    shape: EnumProperty(name="Shape", description="What islands become", items=SHAPES, default=DEFAULTS.shape)
     method: EnumProperty(name="Method", description="How the map is computed", items=METHODS, default=DEFAULTS.method)
     fill_holes: BoolProperty(
         name="Fill Holes",
@@ -102,7 +80,7 @@ class UnwrapProperties:
     )
     correct_aspect: BoolProperty(
         name="Correct Aspect",
-        description="Keep disks round on the image of the active face's material, though it be not square",
+        description="Keep angles on the image of the active face's material, though it be not square",
         default=DEFAULTS.correct_aspect,
     )
     use_subsurf_data: BoolProperty(
@@ -112,14 +90,36 @@ class UnwrapProperties:
     )
     use_pins: BoolProperty(
         name="Use Pins",
-        description="Send three pinned UVs on the boundary of an island to three equally spaced points of the circle",
+        description="Disks: send three pinned UVs on the boundary of an island to three equally spaced points of the "
+        "circle. Rectangles: four pinned UVs on the boundary are the corners; of a mesh without pins four selected "
+        "vertices, of which no face is selected",
         default=DEFAULTS.use_pins,
+    )
+    corner_choice: EnumProperty(
+        name="Corners",
+        description="What the corners of a rectangle are where no pins give them",
+        items=CORNER_CHOICES,
+        default=DEFAULTS.corner_choice,
+    )
+    refine: BoolProperty(
+        name="Refine",
+        description="Move all vertices for the last percents of angle error, and never make it worse; takes longer",
+        default=DEFAULTS.refine,
     )
     center: EnumProperty(
         name="Center", description="What comes to the middle of the disk", items=CENTERS, default=DEFAULTS.center
     )
+    upright: EnumProperty(
+        name="Upright",
+        description="Turn every island so that up on the surface is up in the texture; disks with pins are not turned",
+        items=UPRIGHT,
+        default=DEFAULTS.upright,
+    )
     rotation: FloatProperty(
-        name="Rotation", description="Turn every disk about its center", subtype="ANGLE", default=DEFAULTS.rotation
+        name="Rotation",
+        description="Turn every island about its center, at the end",
+        subtype="ANGLE",
+        default=DEFAULTS.rotation,
     )
     repair: BoolProperty(
         name="Repair Folds", description="Unfold faces that came out inverted", default=DEFAULTS.repair
@@ -131,7 +131,7 @@ class UnwrapProperties:
         default=DEFAULTS.closed,
     )
     place: EnumProperty(
-        name="Place", description="Where the disks go in the texture", items=PLACES, default=DEFAULTS.place
+        name="Place", description="Where islands go in the texture", items=PLACES, default=DEFAULTS.place
     )
     margin: FloatProperty(
         name="Margin",

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from conformal_uv import Chart, ConformalUVError, DistortionNumbers, Remedy, unwrap_numbers
+from conformal_uv import Chart, ConformalUVError, DistortionNumbers, Remedy, UnwrapNumbers, unwrap_numbers
 
-from .properties import CLOSED, METHODS
+from .choices import CLOSED, METHODS
 from .tasks import Task
 
 NOT_TOLD = {"measure", "tried", "left"}  # in JSON
@@ -41,19 +41,30 @@ class ObjectResult:
     notes: list[str] = field(default_factory=list)
     flipped: int = 0
     lost_to_float32: int = 0
-    measure: Callable[[], DistortionNumbers | None] = field(default=lambda: None, repr=False)
+    measure: Callable[[], UnwrapNumbers | None] = field(default=lambda: None, repr=False)
 
     @cached_property
-    def quality(self) -> DistortionNumbers | None:
-        """Distortion over all unwrapped islands, measured when first asked for; None where there are none."""
+    def numbers(self) -> UnwrapNumbers | None:
+        """Of all unwrapped islands, measured when first asked for; None where nothing was solved."""
         return self.measure()
+
+    @property
+    def quality(self) -> DistortionNumbers | None:
+        """Distortion over all unwrapped islands; None where there are none."""
+        return self.numbers.distortion if self.numbers else None
+
+    @property
+    def coverage(self) -> float | None:
+        """Share of the unit square that they fill; None where there are none, or one reaches out of it."""
+        return self.numbers.coverage if self.numbers else None
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
         told = {item.name: getattr(self, item.name) for item in fields(self) if item.name not in NOT_TOLD}
         told["failures"] = [asdict(failure) for failure in self.failures]
         quality = asdict(self.quality) if self.quality else {}
-        return {**told, **{name: value for name, value in quality.items() if value is None or isfinite(value)}}
+        finite = {name: value for name, value in quality.items() if value is None or isfinite(value)}
+        return {**told, **finite, "coverage": self.coverage}
 
 
 @dataclass(frozen=True)
@@ -130,7 +141,7 @@ class UnwrapResult:
 def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
     """What came of an object; `stored` are the UVs (k, 2) of its surface's corners, None where none were written."""
     if task.solved is None:
-        tried = task.surface is not None
+        tried = task.surface is not None or task.mendable
         return ObjectResult(task.ob.name, task.layer, refusal=task.refusal, tried=tried, notes=task.notes)
     charts, written = task.solved.charts, task.written
     done = [chart for chart, new in zip(charts, written, strict=True) if new]
@@ -149,7 +160,7 @@ def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
         notes=task.notes + [note for chart in done for note in chart.notes] + _unconverged(done),
         flipped=sum(len(chart.flipped) for chart in done),
         lost_to_float32=int(lost),
-        measure=lambda: unwrap_numbers(task.solved, uv=stored, chosen=written).distortion,
+        measure=lambda: unwrap_numbers(task.solved, uv=stored, chosen=written),
     )
 
 

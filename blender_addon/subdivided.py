@@ -72,7 +72,9 @@ def read_subdivided(context: bpy.types.Context, ob: bpy.types.Object, arrays: Me
 
 
 def _subdivision(mesh: bpy.types.Mesh, coarse: MeshArrays) -> Subdivision:
-    fine = replace(read_mesh(mesh, ""), pins=coarse.pins)  # `pinned` is asked of the object's own faces
+    fine = replace(
+        read_mesh(mesh, ""), pins=coarse.pins, alone=coarse.alone
+    )  # `pinned` is asked of the object's own faces
     face = np.empty(len(mesh.polygons), dtype=np.int32)
     mesh.attributes[ORIGIN].data.foreach_get("value", face)
     n = len(coarse.V)  # the vertices of the control mesh come first

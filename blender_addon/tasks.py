@@ -13,11 +13,14 @@ from conformal_uv import Unwrapped
 
 from .edit_mode import active_vertex, settled_mesh
 from .kept_work import Surface
-from .mesh_io import has_room, read_mesh, selected_uvs, uv_layer_name
+from .mesh_io import MeshArrays, has_room, read_mesh, selected_uvs, uv_layer_name
+from .pins import HOW_TO_USE, NO_CORNERS, offered_pins, took_pins
 from .properties import Options
 from .subdivided import Subdivision, read_subdivided
 
 NO_ACTIVE = "no vertex is active, the center is automatic; in Edit Mode, click a vertex first"
+NO_FACE = "no visible face is selected"
+ONLY_VERTICES = f"{NO_FACE}; turn on Use Pins where selected vertices are to be corners of all visible faces' islands"
 
 
 @dataclass(eq=False)
@@ -28,12 +31,14 @@ class Task:
     ----------
     refusal : str
         Why nothing can be done, empty where something can.
+    mendable : bool
+        Whether other options would do although nothing was read.
     pinned, unselected : (q,) bool
         The object's own faces with a pinned UV, and with a UV that is not selected where only selected ones are taken.
     subdivision : Subdivision or None
         Where the surface is not the mesh itself, the way back to the mesh.
     solved : Unwrapped or None
-        On unit disks.
+        Not placed: every chart in the square [-1, 1]^2.
     left : dict of int to str
         Charts that are mapped but not to be written, and why.
     """
@@ -42,6 +47,7 @@ class Task:
     layer: str
     surface: Surface | None
     refusal: str = ""
+    mendable: bool = False
     pinned: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
     unselected: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
     subdivision: Subdivision | None = None
@@ -53,16 +59,16 @@ class Task:
         """The object's faces for some of the surface's."""
         return faces if self.subdivision is None else self.subdivision.faces_of(faces)
 
-    def take(self, solved: Unwrapped) -> None:
+    def take(self, solved: Unwrapped, options: Options) -> None:
         """Keep what was solved, and find the islands whose UVs are to stay as they are."""
         self.solved, self.left = solved, {}
+        offered = offered_pins(self.surface.arrays, self.surface.chosen, options)
         for number, chart in enumerate(solved.charts):
             if chart.map is None:
                 continue
             own = self.own_faces(chart.faces)
-            if self.pinned[own].any() and chart.map.pins is None:
-                self.left[number] = "pinned UVs stay where they are; unpin them, or pin three on the boundary and turn "
-                self.left[number] += "on Use Pins"
+            if self.pinned[own].any() and not took_pins(chart, offered):
+                self.left[number] = f"pinned UVs stay where they are{HOW_TO_USE[options.shape]}"
             elif self.unselected[own].any():
                 self.left[number] = "some of its UVs are not selected; select whole islands"
 
@@ -84,8 +90,12 @@ def gather(context: bpy.types.Context, objects: Iterable[bpy.types.Object], opti
     """Read the objects' meshes; a task for each."""
     tasks = [_task(context, ob, options) for ob in objects]
     for task in tasks:
-        if options.center == "ACTIVE" and task.surface is not None and task.surface.active is None:
+        if task.surface is None:
+            continue
+        if options.takes_active and task.surface.active is None:
             task.notes.append(NO_ACTIVE)
+        if options.takes_selected_corners and not offered_pins(task.surface.arrays, task.surface.chosen, options):
+            task.notes.append(NO_CORNERS)
     return tasks
 
 
@@ -96,9 +106,7 @@ def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) ->
         return Task(ob, layer, None, refusal)
     with settled_mesh(ob) as mesh:
         arrays = read_mesh(mesh, layer)
-    chosen = ~arrays.hidden
-    if options.faces == "SELECTED" and (ob.mode == "EDIT" or (chosen & arrays.selected).any()):
-        chosen &= arrays.selected
+    chosen = _chosen(ob, arrays, options)
     unselected = np.zeros(len(chosen), dtype=bool)
     if options.faces == "SELECTED" and options.only_selected_uvs and ob.mode == "EDIT":
         with settled_mesh(ob) as mesh:
@@ -110,8 +118,10 @@ def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) ->
         if not chosen.any():
             return Task(ob, layer, None, "no UV is selected")
     if not chosen.any():
-        return Task(ob, layer, None, "no visible face is selected" if ob.mode == "EDIT" else "no face is visible")
-    active = active_vertex(ob) if options.center == "ACTIVE" else None
+        only_vertices = options.shape == "RECTANGLE" and len(arrays.alone) > 0
+        why = (ONLY_VERTICES if only_vertices else NO_FACE) if ob.mode == "EDIT" else "no face is visible"
+        return Task(ob, layer, None, why, mendable=only_vertices)
+    active = active_vertex(ob) if options.takes_active else None
     if active is not None and not np.isin(active, arrays.corners[np.repeat(chosen, np.diff(arrays.starts))]):
         return Task(ob, layer, None, f"active vertex {active} belongs to no selected face")
     pinned = arrays.pinned
@@ -126,6 +136,17 @@ def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) ->
         unselected=unselected,
         subdivision=subdivision,
     )
+
+
+def _chosen(ob: bpy.types.Object, arrays: MeshArrays, options: Options) -> NDArray[np.bool_]:
+    """Faces to unwrap, (p,)."""
+    visible = ~arrays.hidden
+    selected = visible & arrays.selected
+    if options.faces == "ALL" or (ob.mode != "EDIT" and not selected.any()):
+        return visible
+    if options.takes_selected_corners and len(arrays.alone) and not selected.any():
+        return visible
+    return selected
 
 
 def _refusal(ob: bpy.types.Object, mesh: bpy.types.Mesh, layer: str) -> str:

@@ -42,9 +42,8 @@ def solve(
     todo = [task for task in tasks if task.surface is not None and not task.refusal]
     for number, task in enumerate(todo):
         try:
-            task.take(
-                kept.unwrapped(task.surface, options, callback=_part(callback, number, len(todo)), backend=backend)
-            )
+            told = _part(callback, number, len(todo))
+            task.take(kept.unwrapped(task.surface, options, callback=told, backend=backend), options)
         except CancelledError:
             raise
         except ConformalUVError as error:

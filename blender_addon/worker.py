@@ -71,7 +71,7 @@ class Worker:
         """Tell stage and fraction in the status bar and at the cursor."""
         percent = int(100 * self.fraction)
         context.window_manager.progress_update(percent)
-        context.workspace.status_text_set(f"Conformal Disk Unwrap: {self._stage} {percent} %      Esc: Cancel")
+        context.workspace.status_text_set(f"Conformal Unwrap: {self._stage} {percent} %      Esc: Cancel")
 
     def finish(self, context: bpy.types.Context) -> float:
         """Hand the work over and put the window back; the seconds spent. Raises what went wrong in the thread."""

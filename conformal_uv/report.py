@@ -24,6 +24,8 @@ __all__ = [
     "unwrap_numbers",
 ]
 
+BEYOND = 1e-6  # of the square's side: what single precision takes may lie out of it
+
 
 @dataclass(frozen=True)
 class DistortionNumbers:
@@ -198,7 +200,7 @@ def coverage(uv: NDArray[np.float64], charts: Sequence[Chart]) -> float | None:
     True
     """
     used = [uv[chart.corner] for chart in charts]
-    if not used or min(part.min() for part in used) < 0.0 or max(part.max() for part in used) > 1.0:
+    if not used or min(part.min() for part in used) < -BEYOND or max(part.max() for part in used) > 1.0 + BEYOND:
         return None
     return sum(_area(uv, chart.corner) for chart in charts)
 

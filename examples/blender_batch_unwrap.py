@@ -68,6 +68,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", type=Path)
     parser.add_argument("--folder", type=Path, required=True)
+    parser.add_argument("--shape", default="DISK", choices=("DISK", "FREE", "RECTANGLE"))
     parser.add_argument("--method", default="NEWTON", choices=("LINEAR", "NEWTON", "AUGMENTED_LAGRANGIAN"))
     parser.add_argument("--closed", default="REFUSE", choices=("REFUSE", "CUT"))
     arguments = parser.parse_args(sys.argv[after:])
@@ -76,7 +77,7 @@ def main():
         parser.error("results would replace each other or the files given; rename files, or give another folder")
     enable()
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    options = {"method": arguments.method, "closed": arguments.closed}
+    options = {"shape": arguments.shape, "method": arguments.method, "closed": arguments.closed}
     done = [unwrap_file(path, target, options) for path, target in zip(arguments.files, targets, strict=True)]
     sys.exit(0 if all(done) else 1)
 

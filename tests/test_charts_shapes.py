@@ -24,14 +24,15 @@ def turned(V: NDArray[np.float64], degrees: float, axis: int) -> NDArray[np.floa
 
 
 def rise_in_texture(V: NDArray[np.float64], F: NDArray[np.int64], uv: NDArray[np.float64], up: int) -> float:
-    """Angle in degrees from v to where the surface rises: the height's gradient in the texture, face by face, of the
-    size that it has on the surface, in the mean over the surface's area."""
+    """Angle in degrees from v to where the surface rises: the direction of the height's gradient in the texture, face
+    by face, as long as the gradient is on the surface, in the mean over the surface's area."""
     total = np.zeros(2)
     for face, q in zip(F, uv.reshape(-1, 3, 2), strict=True):
         p, sides = V[face], np.stack((q[1] - q[0], q[2] - q[0]))
-        area = np.linalg.norm(np.cross(p[1] - p[0], p[2] - p[0]))
+        normal = np.cross(p[1] - p[0], p[2] - p[0])
         gradient = np.linalg.solve(sides, [p[1, up] - p[0, up], p[2, up] - p[0, up]])
-        total += area * gradient * np.sqrt(np.linalg.det(sides) / area)
+        if np.linalg.det(sides) > 0.0 and gradient.any():
+            total += np.hypot(*np.delete(normal, up)) * gradient / np.linalg.norm(gradient)
     return float(np.degrees(np.arctan2(total[0], total[1])))
 
 
@@ -178,3 +179,27 @@ def test_a_chart_without_any_area_is_not_turned() -> None:
     V, F = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), np.array([[0, 1, 2]])
     assert upright_turn(V, F, np.array([0.0, 1.0, 1j]), np.arange(3), Shape.FREE, Upright.Z) == 1.0
     assert upright_turn(V, F, np.array([0.0, 1.0, 1j]), np.arange(3), Shape.DISK, Upright.NONE) == 1.0
+
+
+def test_a_squeezed_face_does_not_turn_its_chart() -> None:
+    """In a face that the map squeezes to nothing the height's gradient in the plane has any length: here 1e6."""
+    n = 12
+    x, z = (axis.ravel() for axis in np.meshgrid(np.arange(n + 1.0), np.arange(n + 1.0)))
+    V = np.column_stack((x, np.zeros_like(x), z))
+    k = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
+    a, b, c, d = (q.ravel() for q in (k[:-1, :-1], k[:-1, 1:], k[1:, 1:], k[1:, :-1]))
+    F = np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d))))
+    w = x + 1j * z
+    corner = n  # below on the right; its only face is squeezed onto its far side
+    (face,) = F[(F == corner).any(axis=1)]
+    others = [v for v in face if v != corner]
+    w[corner] = w[others].mean() + 1e-12 * (w[corner] - w[others].mean()) + 0.2 * (w[others[0]] - w[others[1]])
+    turn = upright_turn(V, F, w, np.empty(0, dtype=np.int64), Shape.DISK, Upright.Z)
+    assert abs(np.degrees(np.angle(turn))) < 1.0
+
+
+@pytest.mark.parametrize("shape", ["free", "rectangle"])
+def test_no_chart_leaves_its_square_by_rounding(shape: str) -> None:
+    V, F = mask(300)
+    found = [cuv.unwrap(turned(V, degrees, 1), F, shape=shape, place="disk").uv for degrees in range(0, 60, 3)]
+    assert max(np.abs(uv).max() for uv in found) == 1.0

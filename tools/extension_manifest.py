@@ -17,8 +17,8 @@ schema_version = "1.0.0"
 
 id = "conformal_uv"
 version = "{version}"
-name = "Conformal Disk Unwrap"
-tagline = "Unwrap islands onto disks with their angles kept"
+name = "Conformal Unwrap"
+tagline = "Unwrap islands with their angles kept: free, disk or rectangle"
 maintainer = "The conformal_uv authors"
 type = "add-on"
 tags = ["UV", "Mesh"]

@@ -82,7 +82,7 @@ class ChartMapper:
             found, used, notes = self._mapped(shape, options, vertices, callback)
         except (MeshError, SolverError) as error:
             return _failed(self._told(error))
-        z = self._framed(found, shape, options, fixed=bool(len(used["pins"])))
+        z = self._framed(found, shape, options, fixed=vertices.ordered and bool(len(used["pins"])))
         signed = signed_double_areas(planar_sides(z, self.mesh.F.T.astype(np.int32)))
         return ChartSolution(map=found, error=None, notes=notes, z=z, signed=signed, used=used)
 
@@ -130,7 +130,10 @@ class ChartMapper:
         z = z * self._turn(z, found.boundary, shape, options, fixed)
         low, high = complex(z.real.min(), z.imag.min()), complex(z.real.max(), z.imag.max())
         side = max((high - low).real, (high - low).imag)
-        return (z - 0.5 * (low + high)) * (2.0 / side) if side > 0.0 else z - low
+        if not side > 0.0:
+            return z - low
+        z = (z - 0.5 * (low + high)) * (2.0 / side)
+        return np.clip(z.real, -1.0, 1.0) + 1j * np.clip(z.imag, -1.0, 1.0)  # rounding goes beyond
 
     def _told(self, error: ConformalUVError) -> ConformalUVError:
         """The error with the caller's polygons for the chart's triangles.

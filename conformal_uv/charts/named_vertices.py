@@ -24,11 +24,13 @@ NEEDED = {
 
 @dataclass(frozen=True, eq=False)
 class NamedVertices:
-    """Vertices in the caller's numbers, of all charts together."""
+    """Vertices in the caller's numbers, of all charts together; `ordered` tells whether the order of pins means
+    something."""
 
     center: Ints
     boundary_vertex: Ints
     pins: Ints
+    ordered: bool = True
 
     def __bool__(self) -> bool:
         return bool(len(self.center) or len(self.boundary_vertex) or len(self.pins))
@@ -116,7 +118,7 @@ class NamedVertices:
         lead = place[int(np.argmin(named))]
         taken = sorted(place, key=lambda at: (at - lead) % len(boundary))
         given = [place[k] for k in np.argsort(named)]
-        if given != taken:
+        if self.ordered and given != taken:
             told = ", ".join(str(vertices[boundary[at]]) for at in taken)
             notes.append(f"pins taken in the order of the boundary: {told}")
         return [int(boundary[at]) for at in taken]

@@ -80,7 +80,8 @@ def unwrap(
     pins : vertices or triples of vertices, optional
         A chart takes those on its boundary, which must be exactly three, or four as the corners of a rectangle, in the
         order of its boundary from the one named first; a note tells where that is another order. A set of pins is an
-        offer: charts with another number of them on their boundary are not pinned and say so in their notes.
+        offer, and has no order: charts with another number of them on their boundary are not pinned and say so in
+        their notes, and rectangles are turned upright.
     center, boundary_vertex : vertices, optional
         Each is used by the chart in whose interior, or on whose boundary, it lies; of several in one chart the first.
     rotation : float

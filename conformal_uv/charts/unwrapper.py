@@ -100,6 +100,7 @@ class Unwrapper:
             vertex_list("center", center, self._used),
             vertex_list("boundary_vertex", boundary_vertex, self._used),
             vertex_list("pins", pins, self._used),
+            ordered=not isinstance(pins, set | frozenset),
         )
         progress = ChartProgress(callback)
         progress.report("charts", SPLITTING)

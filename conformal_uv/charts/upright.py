@@ -57,19 +57,22 @@ def upright_turn(V: Real, F: Ints, z: Complex, loop: Ints, shape: Shape, upright
 
 
 def _mean_rise(V: Real, F: Ints, z: Complex, axis: Real) -> complex:
-    """Where the surface rises along an axis, as seen in the plane: its slope's sine, the mean over the area."""
+    """Where the surface rises along an axis, as seen in the plane: its slope's sine, the mean over the area.
+
+    The sine is the surface's, only the direction the image's: in a face that the map squeezes to nothing the gradient
+    in the plane is as long as one likes.
+    """
     a, b, c = (V[corner] for corner in F.T)
     first, second = b - a, c - a
-    double_area = np.linalg.norm(np.cross(first, second), axis=1)
-    q1, q2 = z[F[:, 1]] - z[F[:, 0]], z[F[:, 2]] - z[F[:, 0]]
-    image = q1.real * q2.imag - q1.imag * q2.real
-    counted = (image > 0.0) & (double_area > 0.0)
-    gradient = -1j * ((first @ axis) * q2 - (second @ axis) * q1)[counted]
-    total = float(double_area.sum())
+    normal = np.cross(first, second)
+    total = float(np.linalg.norm(normal, axis=1).sum())
     if not total > 0.0:
         return 0.0
-    # In the plane the gradient is this over the image's area; on the surface it is longer by the root of the scale.
-    return complex((gradient * np.sqrt(double_area[counted] / image[counted])).sum() / total)
+    q1, q2 = z[F[:, 1]] - z[F[:, 0]], z[F[:, 2]] - z[F[:, 0]]
+    upward = -1j * ((first @ axis) * q2 - (second @ axis) * q1)  # the gradient over the image's double area
+    counted = (q1.real * q2.imag - q1.imag * q2.real > 0.0) & (np.abs(upward) > 0.0)
+    slope = np.linalg.norm(np.cross(normal, axis), axis=1)
+    return complex((slope[counted] * upward[counted] / np.abs(upward[counted])).sum() / total)
 
 
 def _straight_sides(boundary: Complex) -> complex | None:

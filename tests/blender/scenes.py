@@ -85,6 +85,31 @@ def mark_seams(ob, chosen):
         edge.use_seam = bool(chosen(*(V[v] for v in edge.vertices)))
 
 
+def mark_seams_of_uvs(ob):
+    """Mark as seams what the active UV map is cut along."""
+    select(ob)
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.seams_from_islands(mark_seams=True)
+    leave()
+
+
+def pin(ob, vertices):
+    """Pin these vertices' UVs in the active UV map, and no others."""
+    pinned = np.isin([loop.vertex_index for loop in ob.data.loops], vertices)
+    name = f".pn.{ob.data.uv_layers.active.name}"
+    attribute = ob.data.attributes.get(name) or ob.data.attributes.new(name, "BOOLEAN", "CORNER")
+    attribute.data.foreach_set("value", pinned)
+
+
+def select_vertices(ob, vertices):
+    """Select these vertices, and no edge or face, in Object Mode."""
+    for items in (ob.data.polygons, ob.data.edges, ob.data.vertices):
+        items.foreach_set("select", np.zeros(len(items), dtype=bool))
+    for vertex in vertices:
+        ob.data.vertices[vertex].select = True
+
+
 def corners_of(ob, faces):
     """Which corners belong to some faces, (k,) bool."""
     corner = np.zeros(len(ob.data.loops), dtype=bool)

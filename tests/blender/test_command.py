@@ -45,6 +45,23 @@ def test_one_object(addon, blend, tmp_path):
     assert told["objects"][0]["name"] == "Grid" and told["objects"][0]["angle_mean"] > 0
 
 
+def test_shapes(addon, blend, tmp_path):
+    out, report = tmp_path / "out.blend", tmp_path / "report.json"
+    free = ("--shape", "free", "--refine", "--upright", "none")
+    for options, asked in (
+        (free, {"shape": "free", "refine": True, "upright": "none"}),
+        (("--shape", "rectangle", "--corner-choice", "area"), {"shape": "rectangle", "corner_choice": "area"}),
+    ):
+        assert run(addon, blend, "-o", out, "--object", "Grid", "--json", report, *options) == 0
+        bpy.ops.wm.open_mainfile(filepath=str(out))
+        import conformal_uv as cuv
+
+        grid = bpy.data.objects["Grid"]
+        expected = cuv.unwrap(*scenes.arrays(grid), place="disk", **asked).uv
+        np.testing.assert_allclose(scenes.uvs(grid), 0.5 + 0.5 * expected, atol=3e-7)
+        assert 0.0 < json.loads(report.read_text())["objects"][0]["coverage"] <= 1.0
+
+
 def test_every_mesh_and_a_failure(addon, blend, tmp_path, capfd):
     out = tmp_path / "out.blend"
     assert run(addon, blend, "-o", out) == 1

@@ -47,7 +47,7 @@ def test_an_active_vertex_outside_the_selection_is_refused():
 
 def test_operator_is_registered_with_undo():
     operator = bpy.types.UV_OT_conformal_unwrap
-    assert operator.bl_label == "Conformal Disk Unwrap"
+    assert operator.bl_label == "Conformal Unwrap"
     assert {"REGISTER", "UNDO"} <= operator.bl_options
 
 

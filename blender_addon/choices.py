@@ -1,0 +1,78 @@
+"""What may be chosen, as the panel names it: the library's own choices, and Blender's beside them."""
+
+from conformal_uv.options import Closed, CornerChoice, Method, Shape, Upright
+
+
+def items(told):
+    """Items of an EnumProperty: the library's choices by their Python names, each with its label and description."""
+    return tuple((choice.name, label, description) for choice, (label, description) in told.items())
+
+
+SHAPES = items(
+    {
+        Shape.DISK: ("Disk", "The unit disk: a round boundary"),
+        Shape.FREE: ("Free", "Its own outline, as long as on the surface; what can be unrolled keeps its lengths too"),
+        Shape.RECTANGLE: ("Rectangle", "A rectangle of the proportions that keep angles: straight sides, for strips"),
+    }
+)
+UPRIGHT = items(
+    {
+        Upright.Z: ("Z Up", "What is up along Z points up in the texture; of what lies flat, what is up along Y"),
+        Upright.Y: ("Y Up", "What is up along Y points up in the texture; of what lies flat, what is up along -Z"),
+        Upright.NONE: ("Off", "Islands are not turned"),
+    }
+)
+CORNER_CHOICES = items(
+    {
+        CornerChoice.TURNING: ("Sharpest Turns", "Where the boundary turns most"),
+        CornerChoice.AREA: ("Least Stretch", "Of several choices the one whose map changes areas least; slower"),
+    }
+)
+METHODS = items(
+    {
+        Method.AUTO: (
+            "Automatic",
+            "Linear or Newton, whichever keeps the angles of an island better",
+        ),
+        Method.LINEAR: (
+            "Linear",
+            "One factorization: the Riemann map read off a Green's function; the fastest",
+        ),
+        Method.NEWTON: (
+            "Newton",
+            "The least conformal energy, by Newton's method on the boundary angles; where an island is crowded, Linear "
+            "may keep angles better",
+        ),
+        Method.AUGMENTED_LAGRANGIAN: (
+            "Augmented Lagrangian",
+            "The algorithm of Choi's report with three pins; slow, for comparison",
+        ),
+    }
+)
+CENTERS = (
+    ("AUTOMATIC", "Automatic", "The vertex deepest inside each island"),
+    ("ACTIVE", "Active Vertex", "The active vertex of each object, in the island in whose interior it lies"),
+)
+CLOSED = items(
+    {
+        Closed.REFUSE: ("Refuse", "Leave islands without a boundary, or with handles, as they are and say so"),
+        Closed.CUT: ("Cut", "Cut them open along edges"),
+    }
+)
+PLACES = (
+    (
+        "FIT",
+        "Fit the Square",
+        "One island fills the unit square; several are packed by conformal_uv: of all objects in Edit Mode together, "
+        "of selected objects in Object Mode each by itself",
+    ),
+    ("PACK", "Keep Size and Pack", "Islands keep their relative size; Blender packs those of all objects together"),
+)
+FACES = (
+    (
+        "SELECTED",
+        "Selected",
+        "Selected, visible faces; in Object Mode all visible faces of a mesh with no face selected",
+    ),
+    ("ALL", "All Visible", "All visible faces"),
+)
