@@ -50,7 +50,8 @@ METHODS = items(
     }
 )
 CENTERS = (
-    ("AUTOMATIC", "Automatic", "The vertex deepest inside each island"),
+    ("AUTOMATIC", "Automatic", "The place deepest inside each island"),
+    ("AREA", "Area Balance", "What gives all parts of an island the most even share of the disk's area"),
     ("ACTIVE", "Active Vertex", "The active vertex of each object, in the island in whose interior it lies"),
 )
 CLOSED = items(

@@ -12,6 +12,7 @@ import numpy as np
 
 from conformal_uv import Callback, PolygonMesh, Unwrapped, Unwrapper
 from conformal_uv.options import (
+    Balance,
     Closed,
     CornerChoice,
     Holes,
@@ -133,6 +134,7 @@ def _call(surface: Surface, options: Options) -> dict[str, Any]:
     if shape is Shape.DISK:
         call["method"] = Method[options.method]
         call["center"] = surface.active if options.takes_active else None
+        call["balance"] = Balance.AREA if options.center == "AREA" else Balance.MIDDLE
     elif shape is Shape.FREE:
         call["refine"] = options.refine
     else:

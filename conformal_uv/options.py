@@ -19,6 +19,7 @@ from .errors import OptionError, listed
 
 __all__ = [
     "Backend",
+    "Balance",
     "ChartOptions",
     "Choice",
     "Closed",
@@ -103,6 +104,13 @@ class Objective(Choice):
 
     CONFORMAL = "conformal"
     DIRICHLET = "dirichlet"
+
+
+class Balance(Choice):
+    """What is at 0 of a disk where no center and no pins are given."""
+
+    MIDDLE = "middle"
+    AREA = "area"
 
 
 class PinMode(Choice):
@@ -328,6 +336,7 @@ class DiskOptions(Limits):
     pin_mode: PinMode | None = None
     center: int | None = None
     boundary_vertex: int | None = None
+    balance: Balance = Balance.MIDDLE
     tolerance: float = 1e-10
     repair: Repair = Repair.AUTO
 
@@ -346,6 +355,7 @@ class DiskOptions(Limits):
             method=method,
             objective=Objective.of("objective", objective),
             pin_mode=PinMode.of("pin_mode", pin_mode),
+            balance=Balance.of("balance", self.balance),
             repair=Repair.of("repair", self.repair),
         )
         if report and self.pin_mode is not PinMode.CONSTRAINT:
@@ -357,6 +367,8 @@ class DiskOptions(Limits):
             _set(self, pins=_vertices("pins", self.pins, 3, "three"))
         if self.needs_pins and (self.center is not None or self.boundary_vertex is not None):
             raise OptionError("Three pins already fix the map; leave out center and boundary_vertex.")
+        if self.balance is Balance.AREA and (self.needs_pins or self.center is not None):
+            raise OptionError('balance="area" says what is in the middle, as center and pins do; leave one out.')
         for name in ("center", "boundary_vertex"):
             if getattr(self, name) is not None:
                 _set(self, **{name: vertex_index(name, getattr(self, name))})

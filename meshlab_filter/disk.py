@@ -30,6 +30,7 @@ def compute_texcoord_parametrization_conformal_disk(
     laplacian: str = "auto",
     center: int | Iterable[int] | None = None,
     boundary_vertex: int | Iterable[int] | None = None,
+    balance: str = "middle",
     pins: Iterable[Any] | None = None,
     pin_mode: str | None = None,
     seams: ArrayLike | None = None,
@@ -70,6 +71,9 @@ def compute_texcoord_parametrization_conformal_disk(
         Folded triangles: 'auto' unfolds them, 'never' leaves them.
     laplacian : Enum
         'auto', 'cotan', 'intrinsic-delaunay'.
+    balance : Enum
+        What is in the middle without a center and pins: 'middle' (default, of the surface) or 'area' (what the Moebius
+        map of least area distortion puts there).
     center, boundary_vertex : Integer
         Vertex sent to the center, boundary vertex sent to angle 0; several for several parts.
     pins : three Integers
@@ -109,5 +113,29 @@ def compute_texcoord_parametrization_conformal_disk(
     ConformalFilterException
         A PyMeshLabException: an option is not taken, or no part could be mapped; ``__cause__`` tells the kind.
     """
-    options: dict[str, Any] = locals()
-    return map_current_mesh(Shape.DISK, **options).numbers
+    return map_current_mesh(
+        Shape.DISK,
+        ms=ms,
+        method=method,
+        objective=objective,
+        upright=upright,
+        holes=holes,
+        closed=closed,
+        nonmanifold=nonmanifold,
+        orientation=orientation,
+        repair=repair,
+        laplacian=laplacian,
+        center=center,
+        boundary_vertex=boundary_vertex,
+        balance=balance,
+        pins=pins,
+        pin_mode=pin_mode,
+        seams=seams,
+        selected_only=selected_only,
+        place=place,
+        margin=margin,
+        backend=backend,
+        texture=texture,
+        quality=quality,
+        callback=callback,
+    ).numbers

@@ -65,5 +65,23 @@ def compute_texcoord_parametrization_conformal_free(
     ConformalFilterException
         A PyMeshLabException: an option is not taken, or no part could be mapped; ``__cause__`` tells the kind.
     """
-    options: dict[str, Any] = locals()
-    return map_current_mesh(Shape.FREE, **options).numbers
+    return map_current_mesh(
+        Shape.FREE,
+        ms=ms,
+        refine=refine,
+        upright=upright,
+        holes=holes,
+        closed=closed,
+        nonmanifold=nonmanifold,
+        orientation=orientation,
+        repair=repair,
+        laplacian=laplacian,
+        seams=seams,
+        selected_only=selected_only,
+        place=place,
+        margin=margin,
+        backend=backend,
+        texture=texture,
+        quality=quality,
+        callback=callback,
+    ).numbers

@@ -70,6 +70,24 @@ def compute_texcoord_parametrization_conformal_rectangle(
     ConformalFilterException
         A PyMeshLabException: an option is not taken, or no part could be mapped; ``__cause__`` tells the kind.
     """
-    options: dict[str, Any] = locals()
-    options["pins"] = options.pop("corners")
-    return map_current_mesh(Shape.RECTANGLE, **options).numbers
+    return map_current_mesh(
+        Shape.RECTANGLE,
+        ms=ms,
+        pins=corners,
+        corner_choice=corner_choice,
+        upright=upright,
+        holes=holes,
+        closed=closed,
+        nonmanifold=nonmanifold,
+        orientation=orientation,
+        repair=repair,
+        laplacian=laplacian,
+        seams=seams,
+        selected_only=selected_only,
+        place=place,
+        margin=margin,
+        backend=backend,
+        texture=texture,
+        quality=quality,
+        callback=callback,
+    ).numbers

@@ -123,7 +123,7 @@ def test_registered_it_is_a_filter_like_pymeshlabs_own(face_of_mask):
 UNWRAPS = {
     "V", "polygons", "selection", "rotation", "tolerance", "relative_tolerance", "max_iterations", "outer_loop", "shape"
 }  # fmt: skip
-DISKS = {"method", "objective", "pins", "pin_mode", "center", "boundary_vertex"}
+DISKS = {"method", "objective", "pins", "pin_mode", "center", "balance", "boundary_vertex"}
 OWN = {"ms", "selected_only", "texture", "quality"}
 
 

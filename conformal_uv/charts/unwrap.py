@@ -30,6 +30,7 @@ def unwrap(
     pin_mode: str | None = None,
     center: Vertices = None,
     boundary_vertex: Vertices = None,
+    balance: str = "middle",
     rotation: float = 0.0,
     tolerance: float = 1e-10,
     relative_tolerance: float = 0.0,
@@ -73,7 +74,7 @@ def unwrap(
         As in `free_map`, for charts with a free boundary.
     corner_choice : {"turning", "area"}
         As in `rectangle_map`, for charts that become rectangles.
-    method, objective, pin_mode, tolerance, relative_tolerance, max_iterations, laplacian, backend
+    method, objective, balance, pin_mode, tolerance, relative_tolerance, max_iterations, laplacian, backend
         As in `disk_map`.
     repair
         As in `disk_map`, for all shapes.
@@ -161,6 +162,7 @@ def unwrap(
         pin_mode=pin_mode,
         center=center,
         boundary_vertex=boundary_vertex,
+        balance=balance,
         rotation=rotation,
         tolerance=tolerance,
         relative_tolerance=relative_tolerance,

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from ..options import (
     Backend,
+    Balance,
     Closed,
     Holes,
     Laplacian,
@@ -61,6 +62,7 @@ def disk(
     boundary_vertex: Annotated[
         int | None, typer.Option(metavar="V", help="Boundary vertex (from 0) sent to angle 0.")
     ] = None,
+    balance: Annotated[Balance, typer.Option(help="What is at 0 without a center and pins.")] = Balance.MIDDLE,
     upright: UpAxis = Upright.Z,
     seams: Seams = None,
     holes: HoleLoops = Holes.FILL,
@@ -83,5 +85,31 @@ def disk(
     One surface fills the unit square of texture space: u, v = 0.5 + 0.5 (x, y). Several charts (pieces, or parts
     between seams) are packed into it.
     """
-    options: dict[str, Any] = locals()
-    unwrap_file(Shape.DISK, **{**options, "pins": three_numbers(pins)})
+    unwrap_file(
+        Shape.DISK,
+        source=source,
+        target=target,
+        method=method,
+        objective=objective,
+        pins=three_numbers(pins),
+        pin_mode=pin_mode,
+        center=center,
+        boundary_vertex=boundary_vertex,
+        balance=balance,
+        upright=upright,
+        seams=seams,
+        holes=holes,
+        closed=closed,
+        nonmanifold=nonmanifold,
+        orientation=orientation,
+        laplacian=laplacian,
+        repair=repair,
+        place=place,
+        margin=margin,
+        backend=backend,
+        split=split,
+        format=format,
+        json_file=json_file,
+        plot=plot,
+        quiet=quiet,
+    )

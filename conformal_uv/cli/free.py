@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -71,5 +71,25 @@ def free(
     What can be unrolled comes out unrolled, its lengths kept up to one scale. One surface fills the unit square of
     texture space one way; several charts are packed into it by their outlines.
     """
-    options: dict[str, Any] = locals()
-    unwrap_file(Shape.FREE, **options)
+    unwrap_file(
+        Shape.FREE,
+        source=source,
+        target=target,
+        refine=refine,
+        upright=upright,
+        seams=seams,
+        holes=holes,
+        closed=closed,
+        nonmanifold=nonmanifold,
+        orientation=orientation,
+        laplacian=laplacian,
+        repair=repair,
+        place=place,
+        margin=margin,
+        backend=backend,
+        split=split,
+        format=format,
+        json_file=json_file,
+        plot=plot,
+        quiet=quiet,
+    )

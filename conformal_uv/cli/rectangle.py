@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -78,6 +78,26 @@ def rectangle(
     How long the rectangle is for its width, its modulus, follows from the surface and the corners. One surface fills
     the unit square of texture space one way; several charts are packed into it.
     """
-    options: dict[str, Any] = locals()
-    options["pins"] = four_numbers(options.pop("corners"))
-    unwrap_file(Shape.RECTANGLE, **options)
+    unwrap_file(
+        Shape.RECTANGLE,
+        source=source,
+        target=target,
+        pins=four_numbers(corners),
+        corner_choice=corner_choice,
+        upright=upright,
+        seams=seams,
+        holes=holes,
+        closed=closed,
+        nonmanifold=nonmanifold,
+        orientation=orientation,
+        laplacian=laplacian,
+        repair=repair,
+        place=place,
+        margin=margin,
+        backend=backend,
+        split=split,
+        format=format,
+        json_file=json_file,
+        plot=plot,
+        quiet=quiet,
+    )

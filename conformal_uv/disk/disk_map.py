@@ -23,6 +23,7 @@ def disk_map(
     pin_mode: str | None = None,
     center: int | None = None,
     boundary_vertex: int | None = None,
+    balance: str = "middle",
     tolerance: float = 1e-10,
     relative_tolerance: float = 0.0,
     max_iterations: int = 50,
@@ -54,11 +55,14 @@ def disk_map(
         How pins are reached: by a Moebius map of the solution, or as constraints of the optimisation as in the
         report (always so for the augmented Lagrangian), which can fold a map whose pins sit badly.
     center : int, optional
-        Interior vertex to be sent to 0; by default it is the middle of the surface, the peak of its torsion function,
-        wherever between vertices that is, and `DiskMap.center` is None. A vertex that only folded
+        Interior vertex to be sent to 0; by default `balance` says what is there. A vertex that only folded
         triangles would allow in the middle comes as near as the repair leaves it, and `DiskMap.center` is None.
     boundary_vertex : int, optional
         Boundary vertex to be sent to 1; by default the first of the boundary loop.
+    balance : {"middle", "area"}
+        What comes to 0 without `center` and `pins`. "middle": the peak of the surface's torsion function, wherever
+        between vertices that is. "area": what the Moebius map of least area distortion sends there, which gives limbs
+        more room and costs some thousandths of a degree on smooth surfaces, more on coarse ones.
     tolerance : float
         Newton's method ends at this norm of the projected gradient of the energy in the angles (radians).
     relative_tolerance : float
@@ -113,6 +117,7 @@ def disk_map(
         pin_mode=pin_mode,
         center=center,
         boundary_vertex=boundary_vertex,
+        balance=balance,
         tolerance=tolerance,
         relative_tolerance=relative_tolerance,
         max_iterations=max_iterations,

@@ -14,14 +14,15 @@ from ..operators.distortion import distortion_of
 from ..operators.factorized_disk import FactorizedDisk
 from ..operators.orientation_sign import flipped_faces
 from ..optimize.choice import best_map
-from ..options import DiskOptions, Laplacian, Method, Objective, Repair
+from ..options import Balance, DiskOptions, Laplacian, Method, Objective, Repair
 from ..progress import Callback, Progress
 from .anchors import anchored
 from .auto import solve_auto
+from .balance import balance_point
 from .ears import doubtful_faces
 from .embedding import unfolded
 from .harmonic_measure import CentredMeasure, centred_measure
-from .placement import inside_disk, place_center, place_pins
+from .placement import inside_disk, place_balanced, place_center, place_pins
 from .repair import Repair as RepairCost
 from .repair import recentred, repair_cost
 from .result import DiskMap, disk_map_result
@@ -195,4 +196,7 @@ class DiskMapper:
             apart = with_distinct_boundary(solution.z, self.boundary, self.boundary[:1])  # pins that crowd, too
             return *place_pins(solution.problem, corners, apart, options.pins), None
         first = int(self.boundary[0]) if options.boundary_vertex is None else options.boundary_vertex
+        if options.balance is Balance.AREA:
+            point = balance_point(self.surface, solution.z)
+            return *place_balanced(solution.problem, corners, solution.z, point, first), None
         return *place_center(solution.problem, corners, solution.z, options.center, first), options.center

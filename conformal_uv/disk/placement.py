@@ -13,7 +13,7 @@ from ..operators.moebius import Moebius
 from ..operators.orientation_sign import flipped_faces
 from .gauge import CentreGauge
 
-__all__ = ["CUBE_ROOTS", "inside_disk", "place_center", "place_pins"]
+__all__ = ["CUBE_ROOTS", "inside_disk", "place_balanced", "place_center", "place_pins"]
 
 Complex = NDArray[np.complex128]
 
@@ -44,6 +44,20 @@ def place_center(
         placed = _fixed(_extended_about(problem, z, placed, center, boundary_vertex), fixed)
         folds = flipped_faces(placed, corners)
     return placed, folds
+
+
+def place_balanced(
+    problem: DirichletProblem, corners: NDArray[np.int32], z: Complex, point: complex, boundary_vertex: int
+) -> tuple[Complex, NDArray[np.int64]]:
+    """The map with `point` at 0, extended anew from its boundary, and the boundary vertex at 1; the faces folded there.
+
+    Where more would be folded than are, the map is only turned.
+    """
+    turned, folds = place_center(problem, corners, z, None, boundary_vertex)
+    moved = _on_circle(Moebius.to_zero(point, z[boundary_vertex])(z[problem.boundary]))
+    placed = _fixed(problem.extend(moved), {boundary_vertex: 1.0})
+    left = flipped_faces(placed, corners)
+    return (placed, left) if len(left) <= len(folds) else (turned, folds)
 
 
 def place_pins(
