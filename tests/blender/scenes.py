@@ -90,7 +90,8 @@ def mark_seams_of_uvs(ob):
     select(ob)
     edit()
     bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.uv.seams_from_islands(mark_seams=True)
+    bpy.ops.uv.select_all(action="SELECT")  # Blender 4.3 takes only selected UVs
+    assert bpy.ops.uv.seams_from_islands(mark_seams=True) == {"FINISHED"}
     leave()
 
 
