@@ -30,7 +30,22 @@ import numpy as np
 
 SECONDS, MEGABYTES = 10.0, 1000.0
 MAPPED_FACES = 4000  # larger meshes are read only, but for one in ten
-FORMATS = ("obj", "ply", "ply-ascii", "off", "stl", "stl-ascii", "npz", "obj.gz", "ply.gz", "glb", "gltf", "3mf", "vtk", "vtu")
+FORMATS = (
+    "obj",
+    "ply",
+    "ply-ascii",
+    "off",
+    "stl",
+    "stl-ascii",
+    "npz",
+    "obj.gz",
+    "ply.gz",
+    "glb",
+    "gltf",
+    "3mf",
+    "vtk",
+    "vtu",
+)
 NUMBERS = (b"0", b"-1", b"1e400", b"nan", b"inf", b"-0.0", b"9" * 20, b"4294967295", b"2147483648", b"1e-320")
 
 

@@ -43,11 +43,16 @@ def checked_corner_uv(mesh: PolygonMesh, corner_uv: Floats) -> Floats:
 
 def mapped_faces(mesh: PolygonMesh, uv: Floats) -> NDArray[np.bool_]:
     """The faces that have texture coordinates at every corner, (p,)."""
-    nan = np.isnan(uv[:, 0]) | np.isnan(uv[:, 1])
-    if not nan.any():
+    if not _any_nan(uv):
         return np.ones(len(mesh.starts) - 1, dtype=bool)
+    nan = np.isnan(uv[:, 0]) | np.isnan(uv[:, 1])
     missing = np.concatenate([np.zeros(1, np.int64), np.cumsum(nan)])
     return np.asarray(missing[mesh.starts[1:]] == missing[mesh.starts[:-1]])
+
+
+def _any_nan(uv: Floats) -> bool:
+    """In one pass without an array of flags: the least of numbers among which is NaN is NaN."""
+    return bool(np.isnan(uv.min(initial=0.0)))
 
 
 def filled_corner_uv(mesh: PolygonMesh, uv: Floats, old: Floats | None) -> Floats:
@@ -90,7 +95,7 @@ def shared_uv(vertex: Ints, uv: Floats) -> tuple[Ints, Ints]:
 
 def vertex_uv(mesh: PolygonMesh, uv: Floats) -> Floats | None:
     """(n, 2) if every vertex has corners and all of them the same coordinates, else None."""
-    if np.isnan(uv).any():
+    if _any_nan(uv):
         return None
     example = np.full(len(mesh.V), -1, np.int64)
     example[mesh.corners] = np.arange(len(mesh.corners))

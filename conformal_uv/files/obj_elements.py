@@ -59,11 +59,13 @@ def scan_elements(lines: TextLines, chosen: Ints, *, places: bool = False) -> El
     sizes = lines.counts[chosen] - 1
     text, at = lines.behind(chosen, 1)
     raw = text.tobytes()
-    if not places and b"/" not in raw and b"+" not in raw:
+    if b"/" not in raw and b"+" not in raw:
         vertex = whole_numbers(raw, int(sizes.sum()))
         if vertex is None:
             raise _malformed(lines, chosen)
-        return Elements(chosen, sizes, vertex, np.zeros(len(vertex), np.int64), NOWHERE, NOWHERE)
+        inked = text > BLANK
+        ends = at[np.flatnonzero(inked[:-1] & ~inked[1:])] + 1 if places else NOWHERE
+        return Elements(chosen, sizes, vertex, np.zeros(len(vertex), np.int64), ends, ends)
     padded = np.full(len(text) + 3 + DIGITS, BLANK, np.uint8)
     padded[3 : 3 + len(text)] = text
     corners = _corners(padded, int(sizes.sum()))

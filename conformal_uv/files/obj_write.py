@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from conformal_uv.files.corner_uv import filled_corner_uv, mapped_faces, shared_uv
 from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.obj_read import ObjBlock, ObjSource, obj_blocks
+from conformal_uv.files.obj_blocks import ObjBlock, obj_blocks
+from conformal_uv.files.obj_read import ObjSource
 from conformal_uv.files.splice import decimal_texts, spliced
 from conformal_uv.files.text_lines import TextLines
 from conformal_uv.mesh.polygons import PolygonMesh

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import struct
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.files.ply.header import PlyElement, PlyProperty
+from conformal_uv.files.ply.list_places import first_cut, first_lengths, list_places, lists_of
 from conformal_uv.files.ply.lists import gathered
 from conformal_uv.files.ply.rows import Ints, damaged_row, kept_type
 
 __all__ = ["EvenRows", "UnevenRows", "binary_rows"]
 
 ALL = slice(None)
-CODES = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I"}
 
 
 def binary_rows(path: Path, data: bytes, begin: int, element: PlyElement, order: str) -> EvenRows | UnevenRows:
@@ -31,40 +29,19 @@ def binary_rows(path: Path, data: bytes, begin: int, element: PlyElement, order:
     """
     if not element.properties:
         return EvenRows(element, begin, begin, np.empty(0, np.uint8))
-    first = _first_lengths(data, begin, element, order)
+    first = first_lengths(data, begin, element, order)
     if first is not None:
         dtype = _record(element, order, first)
         if begin + element.count * dtype.itemsize <= len(data):
             rows: NDArray[Any] = np.ndarray(element.count, dtype, data, begin)
-            if all((rows[_length(p)] == n).all() for p, n in zip(_lists(element), first, strict=True)):
+            if all((rows[_length(p)] == n).all() for p, n in zip(lists_of(element), first, strict=True)):
                 return EvenRows(element, begin, begin + rows.nbytes, rows)
     return UnevenRows(path, data, begin, element, order)
-
-
-def _lists(element: PlyElement) -> list[PlyProperty]:
-    return [p for p in element.properties if p.length]
 
 
 def _length(p: PlyProperty) -> str:
     """The field of a record that holds the length of a list; no property's name has a line's end."""
     return f"{p.name}\nlength"
-
-
-def _first_lengths(data: bytes, begin: int, element: PlyElement, order: str) -> list[int] | None:
-    """The lengths of the first row's lists, if it is all there."""
-    lengths, at = [], begin
-    for p in element.properties if element.count else []:
-        count = 1
-        if p.length:
-            if at + int(p.length[1]) > len(data):
-                return None
-            (count,) = struct.unpack_from(order + CODES[p.length], data, at)
-            at += int(p.length[1])
-            lengths.append(count)
-        at += count * int(p.type[1])
-        if count < 0 or at > len(data):
-            return None
-    return lengths if element.count else [0] * len(_lists(element))
 
 
 def _record(element: PlyElement, order: str, lengths: list[int]) -> np.dtype[Any]:
@@ -116,23 +93,23 @@ class UnevenRows:
 
     def __init__(self, path: Path, data: bytes, begin: int, element: PlyElement, order: str) -> None:
         self.element, self.begin, self.order, self.data = element, begin, order, data
-        lists = _lists(element)
+        lists = lists_of(element)
         count = element.count * len(lists)
         try:
-            places = np.fromiter(_list_places(data, begin, element, order), np.int64, count)
+            places = np.fromiter(list_places(data, begin, element, order), np.int64, count)
             self.places = places.reshape(element.count, len(lists)).T
             negative = np.flatnonzero(np.any([self.lengths(p) < 0 for p in lists], axis=0))
             self.end = int(self.spans(element.properties[-1])[1][-1])
         except (struct.error, IndexError):
             self.end = len(data) + 1
         if self.end > len(data):
-            raise damaged_row(path, element, _first_cut(data, begin, element, order), "the file ends within it")
+            raise damaged_row(path, element, first_cut(data, begin, element, order), "the file ends within it")
         if len(negative):
             raise damaged_row(path, element, int(negative[0]), "a list of negative length")
 
     def lengths(self, p: PlyProperty, rows: slice = ALL) -> Ints:
         """The length of each row's list."""
-        at = self.places[_lists(self.element).index(p), rows]
+        at = self.places[lists_of(self.element).index(p), rows]
         return gathered(self.data, at, np.ones(len(at), np.int64), self.order + p.length).astype(np.int64)
 
     def columns(self, wanted: list[PlyProperty]) -> list[NDArray[Any]]:
@@ -145,7 +122,7 @@ class UnevenRows:
         found = []
         for p in wanted:
             lengths = self.lengths(p)
-            at = self.places[_lists(self.element).index(p)] + int(p.length[1])
+            at = self.places[lists_of(self.element).index(p)] + int(p.length[1])
             values = gathered(self.data, at, lengths, self.order + p.type)
             found.append((values.astype(kept_type(p), copy=False), lengths))
         return found
@@ -165,45 +142,3 @@ class UnevenRows:
             if q is p:
                 break
         return starts, ends
-
-
-def _list_places(data: bytes, begin: int, element: PlyElement, order: str) -> Iterator[int]:
-    """Where the length of each list stands, row after row; struct.error or IndexError where the file ends."""
-    steps: list[tuple[int, struct.Struct, int, int]] = []
-    skip = 0
-    for p in element.properties:
-        if p.length:
-            steps.append((skip, struct.Struct(order + CODES[p.length]), int(p.length[1]), int(p.type[1])))
-            skip = 0
-        else:
-            skip += int(p.type[1])
-    if len(steps) == 1 and steps[0][1].format.endswith("B"):
-        yield from _byte_places(data, begin + steps[0][0], element.count, steps[0][3], 1 + skip + steps[0][0])
-        return
-    at = begin
-    for _ in range(element.count):
-        for before, length, width, size in steps:
-            at += before
-            yield at
-            at += width + size * max(length.unpack_from(data, at)[0], 0)
-        at += skip
-
-
-def _byte_places(data: bytes, at: int, count: int, size: int, fixed: int) -> Iterator[int]:
-    """The same for rows of one list that a byte counts, the form of nearly every file."""
-    step = [fixed + size * length for length in range(256)]
-    for _ in range(count):
-        yield at
-        at += step[data[at]]
-
-
-def _first_cut(data: bytes, begin: int, element: PlyElement, order: str) -> int:
-    """The first row that the file has not whole."""
-    lists = len(_lists(element))
-    if not lists:
-        return (len(data) - begin) // sum(int(p.type[1]) for p in element.properties)
-    found = 0
-    with contextlib.suppress(struct.error, IndexError):
-        for place in _list_places(data, begin, element, order):
-            found += place < len(data)
-    return min((found - 1) // lists, element.count - 1)
