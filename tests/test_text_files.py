@@ -62,6 +62,14 @@ def test_blocks_change_nothing_of_an_obj(
     np.testing.assert_array_equal(read_mesh(tmp_path / "none.obj").corner_uv, whole.corner_uv)
 
 
+@pytest.mark.parametrize("face", [b"f 1 2 3", b"f 1/1 2/1 3/1", b"f 1//1 2//1 3//1", b"f 1 2 3/"])
+def test_an_obj_without_newline_at_its_end(tmp_path: Path, face: bytes) -> None:
+    source = read_mesh(saved(tmp_path, "a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n" + face))
+    uv = np.array([[0, 0], [0.5, 0], [0, 0.25]])
+    write_mesh(tmp_path / "b.obj", source, corner_uv=uv)
+    np.testing.assert_array_equal(read_mesh(tmp_path / "b.obj").corner_uv, uv)
+
+
 @pytest.mark.parametrize("block", [1, 50, 1000])
 @pytest.mark.parametrize(
     ("old", "new", "told"),
@@ -135,6 +143,7 @@ def test_text_stl_as_programs_lay_it_out(tmp_path: Path, monkeypatch: pytest.Mon
         (b"vertex 1 0 0", b"vertex 1 0 0-", "vertex '1 0 0-': three numbers expected"),
         (b"vertex 1e0 1 0", b"vertex 1e0 1 x", "vertex '1e0 1 x': three numbers expected"),
         (b"vertex 1e0 1 0", b"vertex 1e0 1.0.5", "vertex '1e0 1.0.5': three numbers expected"),
+        (SOLID, b"solid a\nendsolid a\n" + SOLID[24:-9] + b"solid b\nendsolid b\n", "whole solids"),
         (SOLID, b"solid a\nendsolid a\n", "at facet 0 of 0"),
         (SOLID, b"", "at facet 0 of 0"),
     ],

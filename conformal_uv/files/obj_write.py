@@ -93,7 +93,8 @@ class _Change:
 def _patched(lines: TextLines, pieces: _Pieces, begin: int, end: int) -> bytes:
     """The lines' bytes from ``begin`` to ``end`` with the spans that begin there replaced."""
     starts, ends, lengths, texts = pieces
-    some = slice(*np.searchsorted(starts, [begin, end]).tolist())
+    last = end == len(lines.text) - 1  # a file without a newline at its end has an index there
+    some = slice(*np.searchsorted(starts, [begin, end + last]).tolist())
     at = np.concatenate([np.zeros(1, np.int64), np.cumsum(lengths)])
     text = lines.data[lines.begin + begin : lines.begin + end]
     return spliced(text, starts[some] - begin, ends[some] - begin, texts[at[some.start] : at[some.stop]], lengths[some])
