@@ -30,7 +30,22 @@ import numpy as np
 
 SECONDS, MEGABYTES = 10.0, 1000.0
 MAPPED_FACES = 4000  # larger meshes are read only, but for one in ten
-FORMATS = ("obj", "ply", "ply-ascii", "off", "stl", "npz", "obj.gz", "ply.gz", "glb", "gltf", "3mf", "vtk", "vtu")
+FORMATS = (
+    "obj",
+    "ply",
+    "ply-ascii",
+    "off",
+    "stl",
+    "stl-ascii",
+    "npz",
+    "obj.gz",
+    "ply.gz",
+    "glb",
+    "gltf",
+    "3mf",
+    "vtk",
+    "vtu",
+)
 NUMBERS = (b"0", b"-1", b"1e400", b"nan", b"inf", b"-0.0", b"9" * 20, b"4294967295", b"2147483648", b"1e-320")
 
 
@@ -48,7 +63,7 @@ def seed_file(kind: str, size: int) -> bytes:
 
     V, F = mask(size)
     with tempfile.TemporaryDirectory() as folder:
-        suffix = "ply" if kind == "ply-ascii" else kind
+        suffix = kind.removesuffix("-ascii")
         path = Path(folder) / f"seed.{suffix}"
         if kind in {"obj", "ply", "npz"}:
             mesh = polygon_mesh(V, F)[0]
@@ -67,6 +82,8 @@ def seed_file(kind: str, size: int) -> bytes:
         mesh = trimesh.Trimesh(V, F, process=False)
         if kind == "ply-ascii":
             return bytes(trimesh.exchange.ply.export_ply(mesh, encoding="ascii"))
+        if kind == "stl-ascii":
+            return str(trimesh.exchange.stl.export_stl_ascii(mesh)).encode()
         mesh.export(path)
         if kind == "gltf":
             return bytes(trimesh.exchange.gltf.export_gltf(mesh, embed_buffers=True)["model.gltf"])
@@ -176,7 +193,7 @@ def tried(seed: int, folder: Path, large: float) -> tuple[str, str, str]:
     size = int(rng.choice([3000, 8000, 20000])) if rng.random() < large else int(rng.choice([12, 60, 300]))
     data = seed_file(kind, size)
     data = mutated(data, rng)
-    path = folder / f"seed_{seed}.{'ply' if kind == 'ply-ascii' else kind}"
+    path = folder / f"seed_{seed}.{kind.removesuffix('-ascii')}"
     path.write_bytes(data)
     before = peak(reset=True)
     start = time.monotonic()

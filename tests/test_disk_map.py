@@ -741,5 +741,5 @@ def test_the_solver_loads_none_of_the_optional_libraries() -> None:
     assert run.returncode == 0, run.stderr
     loaded = {name.split(".")[0] for name in run.stdout.split()}
     assert {"conformal_uv", "numpy", "scipy"} <= loaded
-    assert not loaded & {"bpy", "pymeshlab", "matplotlib", "trimesh", "typer", "rich", "plyfile"}
+    assert not loaded & {"bpy", "pymeshlab", "matplotlib", "trimesh", "typer", "rich"}
     assert run.stdout.count("\n") == 1 and run.stderr == ""  # and it prints nothing

@@ -67,14 +67,14 @@ def checked_mesh(
     """
     if not len(sizes):
         raise FileFormatError(f"{path}: the file has no faces; a point cloud or curve can not be mapped")
-    short = np.flatnonzero(sizes < 3)
-    if len(short):
-        found = int(sizes[short[0]])
-        raise FileFormatError(f"{path}, {where(int(short[0]))}: a face of {found} corners; give it 3 or more")
-    wrong = np.flatnonzero((corners < 0) | (corners >= len(V)))
-    starts = np.concatenate([np.zeros(1, np.int64), np.cumsum(sizes, dtype=np.int64)])
-    if len(wrong):
-        face = int(np.searchsorted(starts, wrong[0], side="right")) - 1
+    if sizes.min() < 3:
+        short = int(np.argmax(sizes < 3))
+        raise FileFormatError(f"{path}, {where(short)}: a face of {int(sizes[short])} corners; give it 3 or more")
+    starts = np.zeros(len(sizes) + 1, np.int64)
+    np.cumsum(sizes, out=starts[1:])
+    if corners.min() < 0 or corners.max() >= len(V):
+        wrong = int(np.argmax((corners < 0) | (corners >= len(V))))
+        face = int(np.searchsorted(starts, wrong, side="right")) - 1
         raise FileFormatError(f"{path}, {where(face)}: a vertex that does not exist (the file has {len(V)}); {DAMAGED}")
     return PolygonMesh(np.ascontiguousarray(V), np.ascontiguousarray(corners), starts)
 
@@ -90,7 +90,7 @@ def foreign_parser(path: Path, what: str, library: str = "") -> Iterator[None]:
         yield
     except ConformalUVError:
         raise
-    except Exception as error:  # zip, zlib, struct, plyfile and trimesh between them raise nearly anything
+    except Exception as error:  # zip, zlib, struct, trimesh and meshio between them raise nearly anything
         reason = str(error) or type(error).__name__
         raise FileFormatError(f"{path}: not a readable {what} file: {reason}; {DAMAGED}") from error
     finally:

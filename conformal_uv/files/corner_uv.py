@@ -14,6 +14,8 @@ __all__ = ["checked_corner_uv", "filled_corner_uv", "mapped_faces", "shared_uv",
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+BLOCK = 1 << 16  # corners compared together
+
 
 def checked_corner_uv(mesh: PolygonMesh, corner_uv: Floats) -> Floats:
     """``corner_uv`` as (k, 2) float64.
@@ -31,8 +33,8 @@ def checked_corner_uv(mesh: PolygonMesh, corner_uv: Floats) -> Floats:
             f"corner_uv has the shape {uv.shape}; the mesh has {len(mesh.corners)} corners, "
             f"so it must be ({len(mesh.corners)}, 2)"
         )
-    infinite = np.flatnonzero(np.isinf(uv).any(axis=1))
-    if len(infinite):
+    if np.isinf(uv).any():
+        infinite = np.flatnonzero(np.isinf(uv).any(axis=1))
         raise NonFiniteError(
             f"infinite texture coordinates at corners {listed(infinite)}; use NaN for a corner that has none", infinite
         )
@@ -41,13 +43,24 @@ def checked_corner_uv(mesh: PolygonMesh, corner_uv: Floats) -> Floats:
 
 def mapped_faces(mesh: PolygonMesh, uv: Floats) -> NDArray[np.bool_]:
     """The faces that have texture coordinates at every corner, (p,)."""
-    missing = np.concatenate([np.zeros(1, np.int64), np.cumsum(np.isnan(uv).any(axis=1))])
+    if not _any_nan(uv):
+        return np.ones(len(mesh.starts) - 1, dtype=bool)
+    nan = np.isnan(uv[:, 0]) | np.isnan(uv[:, 1])
+    missing = np.concatenate([np.zeros(1, np.int64), np.cumsum(nan)])
     return np.asarray(missing[mesh.starts[1:]] == missing[mesh.starts[:-1]])
+
+
+def _any_nan(uv: Floats) -> bool:
+    """In one pass without an array of flags: the least of numbers among which is NaN is NaN."""
+    return bool(np.isnan(uv.min(initial=0.0)))
 
 
 def filled_corner_uv(mesh: PolygonMesh, uv: Floats, old: Floats | None) -> Floats:
     """``uv``; on the faces that it does not map whole, ``old`` (NaN where there is none)."""
-    mapped = np.repeat(mapped_faces(mesh, uv), mesh.sizes)
+    faces = mapped_faces(mesh, uv)
+    if faces.all():
+        return uv
+    mapped = np.repeat(faces, mesh.sizes)
     return np.where(mapped[:, None], uv, np.nan if old is None else old)
 
 
@@ -82,11 +95,18 @@ def shared_uv(vertex: Ints, uv: Floats) -> tuple[Ints, Ints]:
 
 def vertex_uv(mesh: PolygonMesh, uv: Floats) -> Floats | None:
     """(n, 2) if every vertex has corners and all of them the same coordinates, else None."""
-    if np.isnan(uv).any():
+    if _any_nan(uv):
         return None
-    each = np.full((len(mesh.V), 2), np.nan)
-    each[mesh.corners] = uv
-    return each if (each[mesh.corners] == uv).all() and not np.isnan(each).any() else None
+    example = np.full(len(mesh.V), -1, np.int64)
+    example[mesh.corners] = np.arange(len(mesh.corners))
+    if example.min(initial=0) < 0:
+        return None
+    each = uv[example]
+    for begin in range(0, len(uv), BLOCK):
+        some = slice(begin, begin + BLOCK)
+        if not np.array_equal(each.take(mesh.corners[some], axis=0), uv[some]):
+            return None
+    return each
 
 
 def split_at_seams(source: MeshFile, uv: Floats) -> tuple[MeshFile, Floats]:

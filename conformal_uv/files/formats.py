@@ -27,8 +27,7 @@ from conformal_uv.files.other_formats import (
     read_with_trimesh,
 )
 from conformal_uv.files.places import STANDARD_STREAM, check_place, is_stream
-from conformal_uv.files.ply_read import read_ply
-from conformal_uv.files.ply_write import write_ply
+from conformal_uv.files.ply import read_ply, write_ply
 from conformal_uv.files.stl import read_stl
 
 __all__ = ["READABLE", "WRITABLE", "check_writable", "read_mesh", "write_mesh"]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.files.text_lines import BLANK, TextLines
+from conformal_uv.files.text_numbers import whole_numbers
 
 __all__ = ["Elements", "scan_elements"]
 
@@ -17,12 +17,13 @@ Ints = NDArray[np.int64]
 
 SLASH, MINUS, ZERO = b"/-0"
 DIGITS = 18
+NOWHERE = np.empty(0, np.int64)
 WELL_FORMED = re.compile(rb"\s*\w+(\s+-?\d{1,18}(/|//|/-?\d{1,18}/?|/(-?\d{1,18})?/-?\d{1,18})?)*\s*")
 
 
 @dataclass(frozen=True, eq=False)
 class Elements:
-    """Corners of faces and lines, in file order.
+    """Corners of faces and lines, in file order; places count from the beginning of the block of lines.
 
     Attributes
     ----------
@@ -33,8 +34,8 @@ class Elements:
     vertex, texture : (c,) int64
         Indices as written (from 1, or negative); texture is 0 where there is none.
     vertex_end, texture_end : (c,) int64
-        Where the vertex index and the texture index end in the file (both the same, or after an empty one's
-        slash, where there is none).
+        Where the vertex index and the texture index end in the lines' text (both the same, or after an empty one's
+        slash, where there is none); empty where they were not asked for.
     """
 
     line: Ints
@@ -45,8 +46,10 @@ class Elements:
     texture_end: Ints
 
 
-def scan_elements(lines: TextLines, chosen: Ints) -> Elements:
+def scan_elements(lines: TextLines, chosen: Ints, *, places: bool = False) -> Elements:
     """The corners of the chosen (ascending) lines, each a keyword followed by corners.
+
+    ``places`` tells to find where their indices end, too.
 
     Raises
     ------
@@ -54,7 +57,33 @@ def scan_elements(lines: TextLines, chosen: Ints) -> Elements:
         A word is not a corner.
     """
     sizes = lines.counts[chosen] - 1
-    text, places = _only(lines, chosen)
+    text, at = lines.behind(chosen, 1)
+    raw = text.tobytes()
+    if b"/" not in raw and b"+" not in raw:
+        vertex = whole_numbers(raw, int(sizes.sum()))
+        if vertex is None:
+            raise _malformed(lines, chosen)
+        inked = text > BLANK
+        ends = at[np.flatnonzero(inked[:-1] & ~inked[1:])] + 1 if places else NOWHERE
+        return Elements(chosen, sizes, vertex, np.zeros(len(vertex), np.int64), ends, ends)
+    padded = np.full(len(text) + 3 + DIGITS, BLANK, np.uint8)
+    padded[3 : 3 + len(text)] = text
+    corners = _corners(padded, int(sizes.sum()))
+    if corners is None:
+        raise _malformed(lines, chosen)
+    vertex, texture, vertex_end, texture_end = corners
+    if places:
+        none = texture_end == vertex_end
+        vertex_end, texture_end = at[vertex_end - 4] + 1, at[texture_end - 4] + 1
+        texture_end += none & (lines.text[vertex_end] == SLASH)
+    return Elements(chosen, sizes, vertex, texture, vertex_end, texture_end)
+
+
+def _corners(text: NDArray[np.uint8], count: int) -> tuple[Ints, Ints, Ints, Ints] | None:
+    """Vertex and texture indices of the corners, and where they end in the text; None if a word is not a corner."""
+    # "1/" and "1//": empty indices, as some programs write them
+    for _ in range(2):
+        text[np.flatnonzero((text[:-1] == SLASH) & (text[1:] <= BLANK))] = BLANK
     digit = (text - ZERO) < 10
     edges = np.flatnonzero(digit[1:] != digit[:-1]) + 1
     starts, ends = edges[::2], edges[1::2]
@@ -68,57 +97,22 @@ def scan_elements(lines: TextLines, chosen: Ints) -> Elements:
     known = [digit, negative, texture, normal, normal & (second == SLASH)]
     inked = sum(int(np.count_nonzero(part)) for part in known)
     sound = (opens | texture | normal).all() and inked == np.count_nonzero(text > BLANK)
-    if not sound or opens.sum() != sizes.sum() or (ends - starts).max(initial=0) > DIGITS:
-        raise _malformed(lines, chosen)
+    if not sound or np.count_nonzero(opens) != count or (ends - starts).max(initial=0) > DIGITS:
+        return None
+    text[text == SLASH] = BLANK
+    values = whole_numbers(text.tobytes(), len(starts))
+    if values is None:
+        return None
     at = np.flatnonzero(texture)
     corner = np.cumsum(opens)[at] - 1
-    vertex_end = places(ends[opens])
-    texture_end = vertex_end + (lines.text[vertex_end] == SLASH)
-    texture_end[corner] = places(ends[at])
-    indices = np.zeros(len(vertex_end), np.int64)
-    indices[corner] = _integers(text, starts[at], ends[at], negative[at])
-    vertex = _integers(text, starts[opens], ends[opens], negative[opens])
-    return Elements(chosen, sizes, vertex, indices, vertex_end, texture_end)
-
-
-def _only(lines: TextLines, chosen: Ints) -> tuple[NDArray[np.uint8], Callable[[Ints], Ints]]:
-    """The text of the chosen lines but for their keywords, run together and padded on both sides, and the way back:
-    places in the file of (the ends of words at) places in it."""
-    begins, ends = lines.runs(chosen)
-    lengths = ends - begins
-    shift = begins - (np.cumsum(lengths) - lengths) - 3
-    text = np.full(int(lengths.sum()) + 3 + DIGITS, BLANK, np.uint8)
-    for at, begin, end in zip((begins - shift).tolist(), begins.tolist(), ends.tolist(), strict=True):
-        text[at : at + end - begin] = lines.text[begin:end]
-
-    def run_of(place: Ints) -> Ints:
-        return np.searchsorted(begins, place, side="right") - 1
-
-    keywords = lines.tokens[lines.first[chosen]]
-    text[keywords - shift[run_of(keywords)]] = BLANK  # one letter
-    # "1/" and "1//": empty indices, as some programs write them
-    for _ in range(2):
-        open_slash = np.flatnonzero((text[:-1] == SLASH) & (text[1:] <= BLANK))
-        text[open_slash] = BLANK
-
-    def places(found: Ints) -> Ints:
-        return found + shift[np.searchsorted(begins - shift, found - 1, side="right") - 1]
-
-    return text, places
+    found, texture_end = np.zeros(count, np.int64), ends[opens]
+    found[corner], texture_end[corner] = values[at], ends[at]
+    return values[opens], found, ends[opens], texture_end
 
 
 def _after(flag: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """True where the number before is flagged."""
     return np.concatenate([np.zeros(1, dtype=bool), flag])[:-1]
-
-
-def _integers(text: NDArray[np.uint8], starts: Ints, ends: Ints, negative: NDArray[np.bool_]) -> Ints:
-    value = np.zeros(len(starts), np.int64)
-    length = ends - starts
-    for k in range(int(length.max()) if len(length) else 0):
-        further = value * 10 + (text[starts + k] - ZERO)
-        value = np.where(k < length, further, value)
-    return np.where(negative, -value, value)
 
 
 def _malformed(lines: TextLines, chosen: Ints) -> Exception:

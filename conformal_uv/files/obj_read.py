@@ -1,136 +1,107 @@
-"""Wavefront OBJ, read with its source lines so that the writer can change the texture indices alone.
+"""Wavefront OBJ, read so that the writer can go through its lines again and change the texture indices alone.
 
-No library keeps both the corner indices and the lines they stand on, hence this reader. It works on bytes:
-names may be in any encoding.
+No library keeps both the corner indices and the lines they stand on, hence this reader.
 """
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conformal_uv.errors import FileFormatError
 from conformal_uv.files.checks import checked_mesh
 from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.obj_elements import Elements, scan_elements
-from conformal_uv.files.text_lines import TextLines
+from conformal_uv.files.obj_blocks import obj_blocks, wrong_texture
+from conformal_uv.files.text_numbers import in_32_bits
 from conformal_uv.mesh.polygons import PolygonMesh
 
-__all__ = ["ObjSource", "parse_obj", "read_obj"]
-
-Ints = NDArray[np.int64]
-
-LOWER_CASE = 0x20
-HIDDEN_VERTEX = re.compile(rb"[^A-Za-z\s]*[vV][^A-Za-z\s]*(\s|$)")
+__all__ = ["ObjSource", "read_obj"]
 
 
 @dataclass(frozen=True, eq=False)
 class ObjSource:
-    """An OBJ file and the places in it that a new parameterization changes.
+    """An OBJ file; its lines are gone through again where a new parameterization is written.
 
     Attributes
     ----------
+    path : Path
+        Its name.
     data : bytes
         The file.
     mesh : PolygonMesh
         Its polygons.
-    elements : Elements
-        Faces, and those polylines that have texture indices.
-    is_face : (e,) bool
-        Which elements are polygons of the mesh.
-    texture : (c,) int64
-        Texture vertex of every element corner, from 0; -1 for none.
-    texture_lines : (t, 2) int64
-        Span of each ``vt`` line.
     first_element : int
         Where the first element's line begins.
+    textures_before : int
+        Number of ``vt`` lines before it.
+    has_texture : (p,) bool, optional
+        Which polygons have a texture index; None where none has.
+    textured_polyline : bool
+        Whether a polyline has texture indices.
     """
 
+    path: Path
     data: bytes
     mesh: PolygonMesh
-    elements: Elements
-    is_face: NDArray[np.bool_]
-    texture: Ints
-    texture_lines: Ints
     first_element: int
+    textures_before: int = 0
+    has_texture: NDArray[np.bool_] | None = None
+    textured_polyline: bool = False
 
 
 def read_obj(path: Path, data: bytes) -> MeshFile:
     """Read an OBJ file: vertices, polygons and their texture coordinates."""
-    source, corner_uv = parse_obj(path, data)
-    return MeshFile(path, source.mesh, corner_uv, source)
+    V, vt, corners, sizes, textures = ([] for _ in range(5))
+    first_element, before, counted, most = -1, 0, 0, -1
+    textured_polyline = False
+    for block in obj_blocks(path, data):
+        lines, elements = block.lines, block.elements
+        V.append(lines.floats(np.flatnonzero(block.is_v), 1, 3, 3))
+        vt.append(lines.floats(np.flatnonzero(block.is_vt), 1, 2, 1))
+        if first_element < 0 and len(elements.line):
+            first_element = lines.begin + int(lines.starts[elements.line[0]])
+            before = counted + int(np.count_nonzero(block.is_vt[: elements.line[0]]))
+        counted += len(vt[-1])
+        most = max(most, int(block.texture.max(initial=-1)))
+        of_face = np.repeat(block.is_face, elements.sizes)
+        textured_polyline |= bool((block.texture[~of_face] >= 0).any())
+        corners.append(in_32_bits(block.vertex[of_face]))
+        sizes.append(in_32_bits(elements.sizes[block.is_face]))
+        textures.append(in_32_bits(block.texture[of_face]) if elements.texture.any() else None)
+    if most >= counted:
+        raise _no_texture(path, data, counted)
+    every, size = (np.concatenate(parts, dtype=np.int64) for parts in (corners, sizes))
+    mesh = checked_mesh(path, np.concatenate(V), every, size, lambda face: f"line {_line_of(path, data, face)}")
+    texture = _joined(textures, corners)
+    has = None if texture is None else np.maximum.reduceat(texture, mesh.starts[:-1]) >= 0
+    uv = None if texture is None else np.concatenate([*vt, [[np.nan, np.nan]]])[texture]
+    return MeshFile(path, mesh, uv, ObjSource(path, data, mesh, first_element, before, has, textured_polyline))
 
 
-def parse_obj(path: Path, data: bytes) -> tuple[ObjSource, NDArray[np.float64] | None]:
-    """The content of an OBJ file, and the texture coordinates of its polygon corners."""
-    lines = TextLines(path, data)
-    is_v, is_vt = lines.keyword_lines(b"v"), lines.keyword_lines(b"vt")
-    is_f = lines.keyword_lines(b"f")
-    _check_vertices(lines, is_v | is_vt | is_f)
-    elements = scan_elements(lines, np.flatnonzero(is_f | _textured_polylines(lines)))
-    is_face = is_f[elements.line]
-    V = lines.floats(np.flatnonzero(is_v), 1, 3, 3)
-    vt = lines.floats(np.flatnonzero(is_vt), 1, 2, 1)
-    vertex = _from_zero(elements.vertex, elements, is_v)
-    texture = np.where(elements.texture == 0, -1, _from_zero(elements.texture, elements, is_vt))
-    _check_texture(lines, elements, texture, len(vt))
-    face_corner = np.repeat(is_face, elements.sizes)
-    face_lines = elements.line[is_face]
-    mesh = checked_mesh(
-        path,
-        V,
-        vertex[face_corner],
-        elements.sizes[is_face],
-        lambda face: f"line {lines.number(int(face_lines[face]))}",
-    )
-    spans = np.stack([lines.starts[is_vt], np.minimum(lines.ends[is_vt], len(data))], axis=1)
-    source = ObjSource(data, mesh, elements, is_face, texture, spans, int(lines.starts[elements.line[0]]))
-    return source, _corner_uv(vt, texture[face_corner])
-
-
-def _check_vertices(lines: TextLines, known: NDArray[np.bool_]) -> None:
-    """Refuse a vertex whose keyword is hidden by its case, a stray byte or a missing blank."""
-    others = np.flatnonzero(~known)
-    letter, second = (lines.text[lines.tokens[lines.first[others]] + k] | LOWER_CASE for k in (0, 1))
-    plain = (letter >= ord("a")) & (letter <= ord("z"))
-    normal = np.isin(second, np.frombuffer(b"np", np.uint8))
-    for line in others[np.where(letter == ord("v"), ~normal, ~plain)].tolist():
-        at = int(lines.tokens[lines.first[line]])
-        if HIDDEN_VERTEX.match(lines.text[at : at + 16].tobytes()):
-            raise lines.error(line, "a vertex that is not understood; it must begin with v and a blank")
-
-
-def _textured_polylines(lines: TextLines) -> NDArray[np.bool_]:
-    """The ``l`` lines that have texture indices: these must follow when texture vertices are renumbered."""
-    polylines = lines.keyword_lines(b"l")
-    for i in np.flatnonzero(polylines).tolist():
-        polylines[i] = b"/" in lines.text[lines.starts[i] : lines.ends[i]].tobytes()
-    return polylines
-
-
-def _from_zero(written: Ints, elements: Elements, defines: NDArray[np.bool_]) -> Ints:
-    """Indices from 0; a negative one counts back from the last that is defined above the element's line."""
-    index = written - 1
-    if (written < 0).any():
-        above = np.repeat(np.cumsum(defines)[elements.line], elements.sizes)
-        index = np.where(written < 0, above + written, index)
-        index[(written < 0) & (index < 0)] = -1
-    return index
-
-
-def _check_texture(lines: TextLines, elements: Elements, texture: Ints, count: int) -> None:
-    wrong = np.flatnonzero((elements.texture != 0) & ((texture < 0) | (texture >= count)))
-    if len(wrong):
-        element = int(np.searchsorted(np.cumsum(elements.sizes), wrong[0], side="right"))
-        raise lines.error(
-            int(elements.line[element]), f"a texture index that does not exist (the file has {count} vt lines)"
-        )
-
-
-def _corner_uv(vt: NDArray[np.float64], texture: Ints) -> NDArray[np.float64] | None:
-    if (texture < 0).all():
+def _joined(textures: list[NDArray[np.int32] | None], corners: list[NDArray[np.int32]]) -> NDArray[np.int32] | None:
+    """The texture vertices of all blocks' corners; None where none has any."""
+    if all(part is None or part.max(initial=-1) < 0 for part in textures):
         return None
-    return np.concatenate([vt, [[np.nan, np.nan]]])[texture]
+    whole = [np.full(len(c), -1, np.int32) if t is None else t for t, c in zip(textures, corners, strict=True)]
+    return np.concatenate(whole)
+
+
+def _line_of(path: Path, data: bytes, face: int) -> int:
+    """The line of a face, from 1."""
+    for block in obj_blocks(path, data):
+        of_faces = block.elements.line[block.is_face]
+        if face < len(of_faces):
+            return block.lines.number(int(of_faces[face]))
+        face -= len(of_faces)
+    raise IndexError(face)
+
+
+def _no_texture(path: Path, data: bytes, count: int) -> FileFormatError:
+    """The refusal of the first element with a texture vertex beyond the last."""
+    for block in obj_blocks(path, data):
+        if (block.texture >= count).any():
+            return wrong_texture(block.lines, block.elements, block.texture >= count, count)
+    raise IndexError(count)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -10,14 +11,19 @@ from numpy.typing import NDArray
 
 from conformal_uv.files.corner_uv import filled_corner_uv, mapped_faces, shared_uv
 from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.obj_read import ObjSource, parse_obj
+from conformal_uv.files.obj_blocks import ObjBlock, obj_blocks
+from conformal_uv.files.obj_read import ObjSource
 from conformal_uv.files.splice import decimal_texts, spliced
+from conformal_uv.files.text_lines import TextLines
 from conformal_uv.mesh.polygons import PolygonMesh
 
 __all__ = ["patched_obj", "write_obj"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+_Pieces = tuple[Ints, Ints, Ints, NDArray[np.uint8]]
+
+ROWS = 1 << 16  # lines written together
 
 
 def write_obj(stream: BinaryIO, source: MeshFile, corner_uv: Floats) -> None:
@@ -26,57 +32,97 @@ def write_obj(stream: BinaryIO, source: MeshFile, corner_uv: Floats) -> None:
     if not isinstance(origin, ObjSource) or origin.mesh is not source.mesh:
         corner_uv = filled_corner_uv(source.mesh, corner_uv, source.corner_uv)
         origin = _fresh(source.mesh)
-    stream.write(patched_obj(origin, corner_uv))
+    for part in patched_obj(origin, corner_uv):
+        stream.write(part)
 
 
-def patched_obj(source: ObjSource, corner_uv: Floats) -> bytes:
+def patched_obj(source: ObjSource, corner_uv: Floats) -> Iterator[bytes]:
     """The file with the texture coordinates of its polygon corners replaced.
 
     Only ``vt`` lines and the texture indices of elements change. The new ``vt`` lines stand before the first
     element. A face with a corner that is NaN keeps its texture indices; if any element does, the old ``vt``
     lines stay (else they go) and its indices count the new lines in.
     """
-    elements = source.elements
-    face_corner = np.repeat(source.is_face, elements.sizes)
-    mapped = np.zeros(len(face_corner), dtype=bool)
-    mapped[face_corner] = np.repeat(mapped_faces(source.mesh, corner_uv), source.mesh.sizes)
-    new = mapped[face_corner]
-    number, example = shared_uv(source.mesh.corners[new], corner_uv[new])
-    kept = ~mapped & (source.texture >= 0)
-    drop = source.texture_lines if not kept.any() else source.texture_lines[:0]
-    earlier = 0 if len(drop) else int((source.texture_lines[:, 0] < source.first_element).sum())
-    target = source.texture + 1 + np.where(source.texture >= earlier, len(example), 0)
-    target[mapped] = number + 1 + earlier
-    return _replaced(source, _vt_lines(source.data, corner_uv[new][example]), drop, mapped | kept, target)
+    mesh = source.mesh
+    mapped = mapped_faces(mesh, corner_uv)
+    new = np.flatnonzero(np.repeat(mapped, mesh.sizes)) if not mapped.all() else slice(None)
+    number, example = shared_uv(mesh.corners[new], corner_uv[new])
+    kept = source.textured_polyline or (source.has_texture is not None and bool((source.has_texture & ~mapped).any()))
+    change = _Change(mapped, number, len(example), not kept, source.textures_before if kept else 0)
+    for block in obj_blocks(source.path, source.data, places=True):
+        here = source.first_element - block.lines.begin
+        pieces = change.replaced(block)
+        if 0 <= here < len(block.lines.text) - 1:
+            yield _patched(block.lines, pieces, 0, here)
+            yield from _vt_lines(source.data, corner_uv[new][example])
+            yield _patched(block.lines, pieces, here, len(block.lines.text) - 1)
+        else:
+            yield _patched(block.lines, pieces, 0, len(block.lines.text) - 1)
 
 
-def _replaced(source: ObjSource, block: bytes, drop: Ints, changed: NDArray[np.bool_], target: Ints) -> bytes:
-    """The file with the new vt lines in, old ones out, and texture indices set at the changed corners."""
-    texts, lengths = decimal_texts(target[changed], b"/")
-    at = np.array([source.first_element])
-    starts = np.concatenate([drop[:, 0], at, source.elements.vertex_end[changed]])
-    ends = np.concatenate([drop[:, 1], at, source.elements.texture_end[changed]])
-    lengths = np.concatenate([np.zeros(len(drop), np.int64), [len(block)], lengths])
-    order = np.argsort(starts, kind="stable")
-    replacement = np.concatenate([np.frombuffer(block, np.uint8), texts])
-    return spliced(source.data, starts[order], ends[order], replacement, lengths[order])
+class _Change:
+    """What becomes of texture indices and vt lines, block after block."""
+
+    def __init__(self, mapped: NDArray[np.bool_], number: Ints, added: int, drop: bool, earlier: int) -> None:
+        self.mapped, self.number, self.added, self.drop, self.earlier = mapped, number, added, drop, earlier
+        self.face = self.corner = 0
+
+    def replaced(self, block: ObjBlock) -> _Pieces:
+        """The next block's spans that change: begin, end, and the new texts."""
+        lines, elements = block.lines, block.elements
+        mapped = np.zeros(len(elements.sizes), dtype=bool)
+        faces = int(np.count_nonzero(block.is_face))
+        mapped[block.is_face] = self.mapped[self.face : self.face + faces]
+        new = np.repeat(mapped, elements.sizes)
+        target = block.texture + 1 + np.where(block.texture >= self.earlier, self.added, 0)
+        count = int(np.count_nonzero(new))
+        target[new] = self.number[self.corner : self.corner + count] + 1 + self.earlier
+        self.face, self.corner = self.face + faces, self.corner + count
+        changed = new | (block.texture >= 0)
+        texts, lengths = decimal_texts(target[changed], b"/")
+        gone = block.is_vt if self.drop else np.zeros(len(lines.starts), dtype=bool)
+        starts = np.concatenate([lines.starts[gone], elements.vertex_end[changed]])
+        ends = np.concatenate([np.minimum(lines.ends[gone], len(lines.text) - 1), elements.texture_end[changed]])
+        lengths = np.concatenate([np.zeros(len(starts) - len(lengths), np.int64), lengths])
+        if gone.any():
+            order = np.argsort(starts, kind="stable")
+            starts, ends, lengths = starts[order], ends[order], lengths[order]
+        return starts, ends, lengths, texts
 
 
-def _vt_lines(data: bytes, uv: Floats) -> bytes:
+def _patched(lines: TextLines, pieces: _Pieces, begin: int, end: int) -> bytes:
+    """The lines' bytes from ``begin`` to ``end`` with the spans that begin there replaced."""
+    starts, ends, lengths, texts = pieces
+    last = end == len(lines.text) - 1  # a file without a newline at its end has an index there
+    some = slice(*np.searchsorted(starts, [begin, end + last]).tolist())
+    at = np.concatenate([np.zeros(1, np.int64), np.cumsum(lengths)])
+    text = lines.data[lines.begin + begin : lines.begin + end]
+    return spliced(text, starts[some] - begin, ends[some] - begin, texts[at[some.start] : at[some.stop]], lengths[some])
+
+
+def _vt_lines(data: bytes, uv: Floats) -> Iterator[bytes]:
     """Lines for these coordinates, with the shortest numbers that read back the same."""
     newline = data.find(b"\n")
     end = "\n" if newline >= 0 else "\r"
     if newline > 0 and data[newline - 1 : newline] == b"\r":
         end = "\r\n"
-    return ((f"vt %r %r{end}" * len(uv)) % tuple(uv.ravel().tolist())).encode("ascii")
+    for begin in range(0, len(uv), ROWS):
+        some = uv[begin : begin + ROWS]
+        yield ((f"vt %r %r{end}" * len(some)) % tuple(some.ravel().tolist())).encode("ascii")
 
 
 def _fresh(mesh: PolygonMesh) -> ObjSource:
     """An OBJ file of this mesh, without texture coordinates."""
-    vertices = ("v %r %r %r\n" * len(mesh.V)) % tuple(mesh.V.ravel().tolist())
-    texts, lengths = decimal_texts(mesh.corners + 1, b" ")
-    at = np.concatenate([np.zeros(1, np.int64), np.cumsum(lengths)])[mesh.starts]
-    breaks = np.frombuffer(b"f" + b"\nf" * (len(mesh.starts) - 2) + b"\n", np.uint8)
-    widths = np.r_[1, np.full(len(at) - 2, 2), 1]
-    faces = spliced(texts.tobytes(), at, at, breaks, widths)
-    return parse_obj(Path("fresh.obj"), vertices.encode("ascii") + faces)[0]
+    parts = []
+    for begin in range(0, len(mesh.V), ROWS):
+        points = mesh.V[begin : begin + ROWS]
+        parts.append((("v %r %r %r\n" * len(points)) % tuple(points.ravel().tolist())).encode("ascii"))
+    first_element = sum(map(len, parts))
+    for begin in range(0, len(mesh.starts) - 1, ROWS):
+        starts = mesh.starts[begin : begin + ROWS + 1]
+        texts, lengths = decimal_texts(mesh.corners[starts[0] : starts[-1]] + 1, b" ")
+        at = np.concatenate([np.zeros(1, np.int64), np.cumsum(lengths)])[starts - starts[0]]
+        breaks = np.frombuffer(b"f" + b"\nf" * (len(starts) - 2) + b"\n", np.uint8)
+        widths = np.r_[1, np.full(len(at) - 2, 2), 1]
+        parts.append(spliced(texts.tobytes(), at, at, breaks, widths))
+    return ObjSource(Path("fresh.obj"), b"".join(parts), mesh, first_element)

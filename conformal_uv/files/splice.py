@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,11 +18,12 @@ def decimal_texts(values: Ints, prefix: bytes) -> tuple[Bytes, Ints]:
     width = len(str(int(values.max(initial=0))))
     table = np.empty((len(values), width + 1), np.uint8)
     table[:, 0] = prefix[0]
-    rest = values.copy()
+    rest: NDArray[Any] = values.astype(np.int32 if width < 10 else np.int64)
     lengths = np.full(len(values), 2, np.int64)
     for k in range(width, 0, -1):
-        rest, digit = np.divmod(rest, 10)
-        table[:, k] = digit + ord("0")
+        tenth = rest // 10
+        table[:, k] = rest - 10 * tenth + ord("0")
+        rest = tenth
         lengths += (rest > 0) & (k > 1)
     keep = np.arange(width, -1, -1) < (lengths - 1)[:, None]
     keep[:, 0] = True

@@ -1,10 +1,7 @@
-"""STL, text or binary, through trimesh."""
+"""STL, text or binary."""
 
 from __future__ import annotations
 
-import io
-import re
-import warnings
 from pathlib import Path
 from typing import Any
 
@@ -12,38 +9,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import DAMAGED, checked_mesh, foreign_parser, missing_library
+from conformal_uv.files.checks import DAMAGED, checked_mesh
 from conformal_uv.files.mesh_file import MeshFile
+from conformal_uv.files.stl_text import text_corners
 from conformal_uv.files.weld import welded
 
 __all__ = ["read_stl"]
 
+HEADER, COUNT = 80, 84  # bytes before the number of facets, and with it
+FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+
 
 def read_stl(path: Path, data: bytes) -> MeshFile:
     """Read an STL file; its loose triangles are joined where corners have exactly the same position."""
-    soup = _triangles(path, data.removeprefix(b"\xef\xbb\xbf"))
-    V, corners = welded(soup)
-    return MeshFile(path, checked_mesh(path, V, corners, np.full(len(soup) // 3, 3, np.int64)))
+    soup = _binary(path, data)
+    V, corners = welded(text_corners(path, data.removeprefix(BYTE_ORDER_MARK)) if soup is None else soup)
+    sizes = np.broadcast_to(np.int64(3), len(corners) // 3)
+    return MeshFile(path, checked_mesh(path, V.astype(np.float64, copy=False), corners, sizes))
 
 
-def _triangles(path: Path, data: bytes) -> NDArray[np.float64]:
-    """The corners of the triangles one after the other, (3m, 3)."""
-    try:
-        from trimesh.exchange.stl import load_stl
-    except ImportError as error:
-        raise missing_library("trimesh", ".stl") from error
-    with foreign_parser(path, "STL", "trimesh"), warnings.catch_warnings():
-        warnings.simplefilter("error")  # trimesh reads numbers up to the first that is none, and only warns
-        loaded = load_stl(io.BytesIO(data))
-        solids: list[dict[str, Any]] = [loaded] if "faces" in loaded else list(loaded["geometry"].values())
-        parts = [np.asarray(s["vertices"], np.float64)[np.asarray(s["faces"])].reshape(-1, 3) for s in solids]
-        soup = np.concatenate([np.empty((0, 3)), *parts])
-    # trimesh leaves out a text solid without its end and joins facets whatever their number of corners
-    facets = len(re.findall(rb"\bendfacet\b", data, re.IGNORECASE))
-    if not _is_binary(data) and (len(soup) != 3 * facets or not facets):
-        raise FileFormatError(f"{path}: {facets} facets, {len(soup)} corners in whole solids: {DAMAGED}")
-    return soup
-
-
-def _is_binary(data: bytes) -> bool:
-    return len(data) >= 84 and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
+def _binary(path: Path, data: bytes) -> NDArray[Any] | None:
+    """The corners of a binary file one after the other, (3m, 3); None if it is text."""
+    count = int.from_bytes(data[HEADER:COUNT], "little")
+    if len(data) >= COUNT and len(data) == COUNT + FACET.itemsize * count:
+        return np.ndarray(count, FACET, data, COUNT)["corners"].reshape(-1, 3).astype(np.float32, copy=False)
+    if b"facet" in data[: 1 << 16].lower() or len(data) < COUNT:
+        return None
+    raise FileFormatError(
+        f"{path}: neither a text STL file nor a binary one: {count} facets are declared, which take "
+        f"{COUNT + FACET.itemsize * count} bytes, and the file has {len(data)}; {DAMAGED}"
+    )
