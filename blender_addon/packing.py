@@ -28,7 +28,7 @@ def placed(
 ) -> list[NDArray[np.floating]]:
     """UVs (k, 2) of every task's corners, in Object Mode; the islands of all of them in one unit square.
 
-    What packs is what the options ask for, and the other where that can not: xatlas and rectangle-packer may be
+    What packs is what the options ask for, and the other where that can not: rectangle-packer may be
     missing, and Blender's packer does nothing after Esc was pressed somewhere (4.3). `remarks` is told.
     """
     if options.place == "PACK":
@@ -41,7 +41,7 @@ def placed(
     except MissingDependencyError:
         packed = None if options.place == "PACK" else pack_with_blender(context, tasks, options)
         remarks.append(
-            "neither xatlas nor rectangle-packer is installed; "
+            "rectangle-packer is not installed; "
             + ("Blender packed the islands" if packed is not None else "the islands lie in a grid")
         )
         return packed if packed is not None else _in_cells(tasks)

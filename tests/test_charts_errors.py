@@ -172,7 +172,6 @@ def test_packing_needs_its_library(monkeypatch):
     import sys
 
     monkeypatch.setitem(sys.modules, "rpack", None)
-    monkeypatch.setitem(sys.modules, "xatlas", None)
     again = Unwrapper(*side_by_side(2))
     assert again.unwrap(place="disk").mapped.all()
     with pytest.raises(MissingDependencyError, match="pip install rectangle-packer"):

@@ -149,7 +149,7 @@ SETS = {
 
 @pytest.mark.parametrize("margin", [0.0, 0.005, 0.03])
 @pytest.mark.parametrize("kind", SETS)
-def test_outlines_lie_apart_in_the_square(kind, margin, packer):
+def test_outlines_lie_apart_in_the_square(kind, margin):
     charts = SETS[kind]
     places = placed(charts, margin)
     kept = kept_margin(margin, len(charts))
@@ -165,18 +165,8 @@ def test_outlines_lie_apart_in_the_square(kind, margin, packer):
             assert distance >= kept and distance > 0.0
 
 
-@pytest.fixture(params=["xatlas", "rpack"])
-def packer(request, monkeypatch):
-    """Each of the libraries alone."""
-    pytest.importorskip(request.param)
-    if request.param == "rpack":
-        monkeypatch.setitem(sys.modules, "xatlas", None)
-    return request.param
-
-
 def test_outlines_lie_in_each_other_s_bays():
-    pytest.importorskip("xatlas")
-    for kind, gain in (("L shapes", 1.5), ("stars", 1.05), ("ring and disk", 1.05)):
+    for kind, gain in (("L shapes", 1.5), ("stars", 1.05)):
         charts = SETS[kind]
         area = sum(0.5 * double_area(*chart) for chart in charts)
         by_outline, by_box = (pack_charts(shapes, 0.002)[0].scale for shapes in (charts, boxes_of(charts)))
@@ -204,8 +194,7 @@ def test_twenty_thousand_small_charts_take_a_step_for_each_shelf(monkeypatch):
         return starts
 
     monkeypatch.setattr(shelves, "_full", counted)
-    for library in ("xatlas", "rpack"):
-        monkeypatch.setitem(sys.modules, library, type(sys)(library))  # without any function: it is not asked
+    monkeypatch.setitem(sys.modules, "rpack", type(sys)("rpack"))  # without any function: it is not asked
     found = pack_charts(charts, 0.005)
     assert len(shelved) < 200 and max(shelved) < 600
     scale = found[0].scale
@@ -225,7 +214,7 @@ def test_twenty_thousand_small_charts_take_a_step_for_each_shelf(monkeypatch):
     assert (bottoms[1:] - tops[:-1]).min() >= margin
 
 
-def test_large_charts_and_many_small_ones(packer):
+def test_large_charts_and_many_small_ones():
     rng = np.random.default_rng(3)
     charts = [star(rng, r) for r in rng.uniform(0.5, 1.0, 12)]
     charts += [rectangle(w, h) for w, h in rng.uniform(0.01, 0.03, (3000, 2))]
@@ -245,10 +234,9 @@ def test_large_charts_and_many_small_ones(packer):
         assert least_distance(z[corners], tiny) >= margin
 
 
-def test_neither_library_is_told(monkeypatch):
-    monkeypatch.setitem(sys.modules, "xatlas", None)
+def test_a_missing_library_is_told(monkeypatch):
     monkeypatch.setitem(sys.modules, "rpack", None)
-    with pytest.raises(MissingDependencyError, match="xatlas or rectangle-packer"):
+    with pytest.raises(MissingDependencyError, match="needs rectangle-packer"):
         pack_charts([L_SHAPE, L_SHAPE], 0.0)
     assert len(pack_charts([L_SHAPE], 0.0)) == 1 and pack_charts([]) == []
 
@@ -264,20 +252,3 @@ def test_coverage_is_the_area_of_the_images():
     apart = cuv.unwrap(V, F, place="disk")
     assert cuv.unwrap_numbers(apart).coverage is None
     assert cuv.unwrap_numbers(apart, uv=0.5 + 0.25 * apart.uv).coverage > 0.0
-
-
-def test_an_answer_that_overlaps_is_not_taken(monkeypatch):
-    xatlas = pytest.importorskip("xatlas")
-
-    class Wrong(xatlas.Atlas):
-        def __getitem__(self, number):
-            vertex, triangles, uv = super().__getitem__(number)
-            return vertex, triangles, 0.5 * uv
-
-    stub = type(sys)("xatlas")
-    stub.Atlas, stub.PackOptions, stub.ChartOptions = Wrong, xatlas.PackOptions, xatlas.ChartOptions
-    monkeypatch.setitem(sys.modules, "xatlas", stub)
-    charts = SETS["stars"]
-    places = placed(charts, 0.01)
-    triangles = [z[corners] for z, (_, corners) in zip(places, charts, strict=True)]
-    assert min(least_distance(a, b) for i, a in enumerate(triangles) for b in triangles[:i]) >= 0.01

@@ -2,8 +2,8 @@
 
     python -m tools.build_extension [--output dist/blender] [--platform linux-x64 ...]
 
-One zip for each platform, with the project's own wheel and unmodified wheels of scipy, cvxopt, mapbox-earcut, xatlas
-and rectangle-packer for the Pythons of Blender 4.2 to 5.0 (3.11) and 5.1 to 5.2 (3.13); and one for Blenders of
+One zip for each platform, with the project's own wheel and unmodified wheels of scipy, cvxopt, mapbox-earcut and
+rectangle-packer for the Pythons of Blender 4.2 to 5.0 (3.11) and 5.1 to 5.2 (3.13); and one for Blenders of
 distributions, whose Python has scipy already, with no wheel but the project's own, which runs on any Python. numpy is
 Blender's own everywhere. The tool that builds and validates is Blender's, out of the bpy wheel.
 """
@@ -93,7 +93,6 @@ def bundled_wheels(platform: str, folder: Path) -> list[Path]:
         scipy = LAST_SCIPY.get((python, platform), SCIPY[python])
         found.append(_download(f"scipy=={scipy}", python, platform, folder, needed=True))
         found.append(_download("rectangle-packer>=2.0.2", python, platform, folder, needed=True))
-        found.append(_download("xatlas>=0.0.11", python, platform, folder, needed=False))
         found.append(_download("mapbox-earcut>=1.0.1", python, platform, folder, needed=False))
         found.append(_download("cvxopt>=1.3.2", python, platform, folder, needed=False))
     return sorted({path for path in found if path is not None})

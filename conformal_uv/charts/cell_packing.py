@@ -1,13 +1,10 @@
-"""Charts packed on a grid of cells, by xatlas.
+"""Charts packed on a grid of cells, as blocks fall in a well known game: each comes to rest on what lies there already.
 
-Of the library only whole numbers are taken: by how many cells each chart is moved. It is given runs of cells, not
-positions, and what it answers is checked: no two charts may have a corner of a cell in common, so that a cell is free
-between any two of them.
+B. Levy, S. Petitjean, N. Ray, J. Maillot, "Least squares conformal maps for automatic texture atlas generation",
+SIGGRAPH 2002, section 4.2. No two charts have a corner of a cell in common, so that a cell is free between any two.
 """
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,83 +16,42 @@ __all__ = ["pack_cells"]
 Ints = NDArray[np.int64]
 
 
-def pack_cells(xatlas: Any, found: Footprints, side: int | None = None) -> tuple[Ints, Ints] | None:
-    """Columns and rows (k,) by which charts are moved, into a square of `side` cells if given.
+def pack_cells(found: Footprints, side: int) -> tuple[Ints, Ints] | None:
+    """Columns and rows (k,) by which charts are moved into a square of `side` cells; None where they do not fit so.
 
-    None where they do not fit, as the library goes about it.
+    The highest go first, each to where its top comes lowest, and of these places to where it leaves the least room
+    below.
     """
-    if side is None:
-        column, row = _moved(xatlas, found)
-        return (column, row) if _apart(found, column, row) else None
-    framed = found.with_frame(side)
-    column, row = _moved(xatlas, framed)
-    if column[-1] or row[-1] or not _apart(framed, column, row):
-        return None
-    column, row = column[:-1], row[:-1]
-    inside = max((column + found.columns).max(), (row + found.rows).max()) <= side
-    return (column, row) if inside else None
+    first, bottom, top = _profiles(found)
+    free = np.zeros(side + 1, dtype=np.int64)  # the lowest free row of corners, in each column of corners
+    column, row = np.zeros(len(found.columns), dtype=np.int64), np.zeros(len(found.columns), dtype=np.int64)
+    for chart in np.lexsort((-found.columns, -found.rows)).tolist():
+        here = slice(first[chart], first[chart + 1])
+        width = first[chart + 1] - first[chart]
+        if width > side + 1:
+            return None
+        under = np.lib.stride_tricks.sliding_window_view(free, width)
+        rest = np.maximum((under - bottom[here]).max(axis=1), 0)
+        lowest = np.flatnonzero(rest == rest.min())
+        left = (rest[lowest, None] + bottom[here] - under[lowest]).sum(axis=1)
+        at = int(lowest[np.argmin(left)])
+        column[chart], row[chart] = at, rest[at]
+        if row[chart] + found.rows[chart] > side:
+            return None
+        np.maximum(free[at : at + width], row[chart] + top[here] + 1, out=free[at : at + width])
+    return column, row
 
 
-def _moved(xatlas: Any, found: Footprints) -> tuple[Ints, Ints]:
-    """Columns and rows (k,) by which the library moves the charts."""
-    shift = np.cumsum(found.columns + 2) - found.columns  # charts are told apart by having no corner in common
-    triangles, owner = _triangles(found)
-    x = np.stack((found.start, found.stop, found.stop, found.start), axis=1) + shift[found.owner, None]
-    y = found.row[:, None] + [0, 0, 1, 1]
-    corners = np.stack((x, y), axis=2).reshape(-1, 2)
-    atlas, options = xatlas.Atlas(), xatlas.PackOptions()
-    options.rotate_charts = options.rotate_charts_to_axis = options.bilinear = False
-    options.texels_per_unit, options.padding, options.resolution, options.bruteForce = 1.0, 0, 0, True
-    atlas.add_uv_mesh(corners.astype(np.float32), triangles.astype(np.uint32), owner.astype(np.uint32)[:, None])
-    atlas.generate(xatlas.ChartOptions(), options)
-    vertex, _, uv = atlas[0]
-    moved = np.zeros(corners.shape)
-    moved[vertex] = uv.astype(np.float64) * [atlas.width, atlas.height] - 0.5  # centres of cells
-    one = 4 * np.searchsorted(found.owner, np.arange(len(shift)))  # corner of each chart
-    offset = np.rint(moved[one] - corners[one]).astype(np.int64)
-    return offset[:, 0] + shift, offset[:, 1]
+def _profiles(found: Footprints) -> tuple[Ints, Ints, Ints]:
+    """Lowest and highest row of corners in each column of corners, chart after chart, and where each chart begins.
 
-
-def _triangles(found: Footprints) -> tuple[Ints, Ints]:
-    """The runs as two triangles each, and links that make one chart of its runs: (m, 3) corners, (m,) charts.
-
-    Corner 4 i + (0, 1, 2, 3) is one of run i: below left, below right, above right, above left. A link lies in a run
-    and has a corner of it and one of a run in the next row.
+    Every column between a chart's first and last is covered, for its runs hang together.
     """
-    run = 4 * np.arange(len(found.owner))
-    lower, upper = _touching(found)
-    further = found.start[upper] >= found.start[lower]
-    one, other = 4 * lower, 4 * upper
-    in_lower = np.stack((other, one + 3, one), axis=1)[further]
-    in_upper = np.stack((one + 3, other, other + 3), axis=1)[~further]
-    halves = (run[:, None] + [0, 1, 2], run[:, None] + [0, 2, 3])
-    triangles = np.concatenate((*halves, in_lower, in_upper))
-    return triangles, found.owner[triangles[:, 0] // 4]
-
-
-def _touching(found: Footprints) -> tuple[Ints, Ints]:
-    """Pairs of runs in neighbouring rows of a chart that have a corner of a cell in common, the lower one first."""
-    stride = found.columns + 2
-    first = np.cumsum(stride * (found.rows + 1)) - stride * (found.rows + 1)
-    begin = first[found.owner] + found.row * stride[found.owner] + found.start
-    end = begin + found.stop - found.start
-    above = stride[found.owner]
-    left = np.searchsorted(end, begin + above, side="left")
-    count = np.maximum(np.searchsorted(begin, end + above, side="right") - left, 0)
-    lower = np.repeat(np.arange(len(begin)), count)
-    return lower, np.arange(count.sum()) - np.repeat(np.cumsum(count) - count - left, count)
-
-
-def _apart(found: Footprints, column: Ints, row: Ints) -> bool:
-    """Whether no two charts have a corner of a cell in common, and none lies outside."""
-    if min(column.min(), row.min()) < 0:
-        return False
-    stride = int((column + found.columns).max()) + 1
-    start = (row[found.owner] + found.row) * stride + column[found.owner] + found.start
-    length = np.tile(found.stop - found.start + 1, 2)
-    start, owner = np.concatenate((start, start + stride)), np.tile(found.owner, 2)
-    corner = np.arange(length.sum()) + np.repeat(start - np.cumsum(length) + length, length)
-    owner = np.repeat(owner, length)
-    holder = np.empty(int(corner.max()) + 1, dtype=np.int64)
-    holder[corner] = owner
-    return bool(np.array_equal(holder[corner], owner))
+    first = np.concatenate(([0], np.cumsum(found.columns + 1)))
+    length = found.stop - found.start + 1
+    begin = first[found.owner] + found.start
+    place = np.arange(length.sum()) + np.repeat(begin - np.cumsum(length) + length, length)
+    bottom, top = np.full(first[-1], np.iinfo(np.int32).max, dtype=np.int64), np.full(first[-1], -1, dtype=np.int64)
+    np.minimum.at(bottom, place, np.repeat(found.row, length))
+    np.maximum.at(top, place, np.repeat(found.row + 1, length))
+    return first, bottom, top

@@ -40,20 +40,6 @@ class Footprints:
     rows: Ints
     around: float
 
-    def with_frame(self, side: int) -> Footprints:
-        """The same and, as the last, two sides of a frame that leaves a square of so many cells free."""
-        row = np.arange(side + 2)
-        start = np.where(row == side + 1, 0, side + 1)
-        return Footprints(
-            np.concatenate((self.owner, np.full(side + 2, len(self.columns)))),
-            np.concatenate((self.row, row)),
-            np.concatenate((self.start, start)),
-            np.concatenate((self.stop, np.full(side + 2, side + 2))),
-            np.append(self.columns, side + 2),
-            np.append(self.rows, side + 2),
-            self.around,
-        )
-
 
 def footprints(outlines: Outlines, cell: float, around: float) -> Footprints:
     """Cells of side `cell` with a point that is less than `around` cells to the side of and above the chart's."""

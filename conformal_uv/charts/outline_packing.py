@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,15 +18,11 @@ Complex = NDArray[np.complex128]
 
 FEWEST_CELLS, MOST_CELLS = 320, 640  # along the square's side; the time grows with their square
 CELLS_OF_CHART = 30  # across one, where all are alike
-PARTS = (
-    0.5,
-    0.7,
-    1.0,
-)  # of these cells, one after the other: a coarse grid may pack by chance what a fine one does not
+PARTS = (0.5, 0.7, 1.0)  # of these cells, in turn: a coarse grid may pack by chance what a fine one does not
 PRECISION = 200  # the search for the side ends at this part of it
 
 
-def pack_by_outline(xatlas: Any, outlines: Outlines, margin: float, enough: float) -> tuple[Complex, float] | None:
+def pack_by_outline(outlines: Outlines, margin: float, enough: float) -> tuple[Complex, float] | None:
     """Where the corners of the charts' boxes come (k,), and the side of the square around them.
 
     Charts keep `margin` times the side from each other and from the square's sides. None where no side less than
@@ -36,35 +31,24 @@ def pack_by_outline(xatlas: Any, outlines: Outlines, margin: float, enough: floa
     cells = np.clip(CELLS_OF_CHART * np.sqrt(len(outlines)), FEWEST_CELLS, MOST_CELLS)
     best = None
     for part in PARTS:
-        found = _packed(xatlas, outlines, enough / int(part * cells), margin, enough)
+        found = _packed(outlines, enough / int(part * cells), margin, enough)
         if found is not None:
             best, enough = found, found[1]
     return best
 
 
-def _packed(xatlas: Any, outlines: Outlines, cell: float, margin: float, enough: float) -> tuple[Complex, float] | None:
+def _packed(outlines: Outlines, cell: float, margin: float, enough: float) -> tuple[Complex, float] | None:
     """The same on one grid."""
-    grid = _Grid.of(outlines, cell, margin * enough)
-    best = _grown(xatlas, grid, enough)
-    if best is not None:  # what is less wide needs less between
-        enough = best[1]
-        grid = _Grid.of(outlines, cell, margin * enough)
+    grid, best = _Grid.of(outlines, cell, margin * enough), None
     least, most = grid.least(), grid.cells_within(enough)
     while most - least > max(1, most // PRECISION):
         middle = (least + most) // 2
-        found = pack_cells(xatlas, grid.found, middle)
+        found = pack_cells(grid.found, middle)
         if found is None:
             least = middle
         else:
             best, most = grid.places(*found), grid.extent(*found)
     return best
-
-
-def _grown(xatlas: Any, grid: _Grid, enough: float) -> tuple[Complex, float] | None:
-    """By the library's own notion of a small square."""
-    found = pack_cells(xatlas, grid.found)
-    placed = None if found is None else grid.places(*found)
-    return placed if placed is not None and placed[1] < enough else None
 
 
 @dataclass(frozen=True, eq=False)

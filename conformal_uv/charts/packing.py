@@ -84,7 +84,7 @@ def pack_charts(charts: Sequence[ChartShape], margin: float | None = None) -> li
     Raises
     ------
     MissingDependencyError
-        There are several, and neither xatlas nor rectangle-packer is installed.
+        There are several, and rectangle-packer is not installed.
     """
     if not len(charts):
         return []

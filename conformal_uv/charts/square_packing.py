@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +36,7 @@ def pack_outlines(outlines: Outlines, margin: float) -> tuple[Complex, float]:
     Raises
     ------
     MissingDependencyError
-        There are several, and neither xatlas nor rectangle-packer is installed.
+        There are several, and rectangle-packer is not installed.
     """
     margin = (margin + LEAST_MARGIN) * (1.0 + SLACK)
     if not np.abs(outlines.size).max() > 0.0:
@@ -59,21 +58,20 @@ def _alone(size: Complex, margin: float) -> tuple[Complex, float]:
 
 
 def _packer() -> Packer:
-    """By outlines, or else by boxes."""
-    try:
-        import xatlas
-
-        return partial(pack_by_outline, xatlas)
-    except ImportError:
-        pass
+    """By boxes, and then by outlines where these take less room."""
     try:
         import rpack
     except ImportError as error:
         raise MissingDependencyError(
-            "Packing several charts needs xatlas or rectangle-packer: pip install rectangle-packer, or pass "
-            'place="disk".'
+            'Packing several charts needs rectangle-packer: pip install rectangle-packer, or pass place="disk".'
         ) from error
-    return lambda outlines, margin, enough: pack_by_box(rpack, outlines.size, margin, enough)
+
+    def packer(outlines: Outlines, margin: float, enough: float) -> tuple[Complex, float] | None:
+        boxes = pack_by_box(rpack, outlines.size, margin, enough)
+        found = pack_by_outline(outlines, margin, enough if boxes is None else boxes[1])
+        return boxes if found is None else found
+
+    return packer
 
 
 def _by_shelves(size: Complex, margin: float) -> tuple[Complex, float]:

@@ -36,11 +36,10 @@ def use(folder):
     finished = bpy.ops.uv.conformal_unwrap() == {"FINISHED"}
     import rpack
     import scipy
-    import xatlas
 
     import conformal_uv as cuv
 
-    brought = all(module.__file__.startswith(folder) for module in (cuv, scipy, rpack, xatlas))
+    brought = all(module.__file__.startswith(folder) for module in (cuv, scipy, rpack))
     V = np.array([tuple(vertex.co) for vertex in ob.data.vertices], dtype=np.float64)
     result = cuv.unwrap(V, [list(polygon.vertices) for polygon in ob.data.polygons], place="disk")
     uv = np.array([tuple(item.vector) for item in ob.data.uv_layers.active.uv])
