@@ -8,6 +8,7 @@ from meshes import scattered_disk
 from numpy.typing import NDArray
 
 from conformal_uv import samples
+from conformal_uv.disk.untangling import untangled
 from conformal_uv.mesh.surface import Surface
 from conformal_uv.operators.conformal_barrier import BarrierPlace, FaceDerivatives
 from conformal_uv.operators.distortion import distortion_of
@@ -127,3 +128,13 @@ def test_the_first_hessian_is_that_of_the_frozen_energy(inner: int) -> None:
     product = (faces.Q.conj().T @ (weights * (faces.Q @ full)))[free].view(float)
     solved = here.held_hessian(surface.V[free], "auto").solve(product)
     np.testing.assert_allclose(solved, x, atol=1e-4)  # SHIFT times the condition
+
+
+def test_a_patch_shrunk_to_a_point_is_left_as_it_is() -> None:
+    """No softness is a part of a mean area of 0: the barrier would divide by it."""
+    surface = Surface.from_arrays(*scattered_disk(40, 20, seed=1))
+    z = np.zeros(surface.n, dtype=complex)
+    every, movable = np.arange(surface.m), np.ones(surface.n, dtype=bool)
+    with np.errstate(all="raise"):
+        found = untangled(surface, z, movable, lambda z: every, "auto", Progress())
+    assert not found.any()

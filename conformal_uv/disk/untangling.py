@@ -28,6 +28,7 @@ HARDENINGS = 12
 STEPS = 30  # at each
 HARD = 1e-9  # of the mean area scale; as good as a barrier
 TOLERANCE = 1e-3
+SMALLEST = 1e-140  # mean area scale of a patch that has not shrunk to a point: its hardest softness has a square
 
 
 def untangled(
@@ -87,6 +88,8 @@ def _hardened(surface: Surface, z: Complex, patch: NDArray[np.bool_], backend: s
         return z
     place = BarrierPlace(FaceDerivatives(surface, faces), vertices, z)
     size = float(np.abs(place.jacobian).mean())
+    if size < SMALLEST:
+        return z
     place = place.softened(_softness(float(place.jacobian.min()), size))
     for _ in range(HARDENINGS):
         inverse = place.held_hessian(surface.V[vertices], backend).solve
