@@ -206,10 +206,10 @@ def coverage(uv: NDArray[np.float64], charts: Sequence[Chart]) -> float | None:
 
 
 def _enlarged(chart: Chart, stored: NDArray[np.float64]) -> float:
-    """Area of the chart in the texture over that in its disk."""
+    """Area of the chart in the texture over that in its own plane."""
     assert chart.map is not None
-    in_disk = _area(chart.map.uv, chart.F)
-    return _area(stored, chart.corner) / in_disk if in_disk > 0.0 else 1.0
+    own = _area(chart.map.uv, chart.F)
+    return _area(stored, chart.corner) / own if own > 0.0 else 1.0
 
 
 def _area(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> float:

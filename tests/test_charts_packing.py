@@ -11,6 +11,8 @@ from polygon_shapes import side_by_side
 
 import conformal_uv as cuv
 from conformal_uv.charts import shelves, unwrap
+from conformal_uv.charts.cell_packing import pack_cells
+from conformal_uv.charts.footprints import Footprints
 from conformal_uv.charts.packing import kept_margin, pack_charts, pack_disks
 from conformal_uv.errors import MissingDependencyError
 
@@ -252,3 +254,14 @@ def test_coverage_is_the_area_of_the_images():
     apart = cuv.unwrap(V, F, place="disk")
     assert cuv.unwrap_numbers(apart).coverage is None
     assert cuv.unwrap_numbers(apart, uv=0.5 + 0.25 * apart.uv).coverage > 0.0
+
+
+def test_of_places_as_low_a_chart_takes_the_one_that_leaves_the_least_room_below() -> None:
+    """A wall, a gap of two cells, a plateau; two cells that bridge the gap or lie on the plateau."""
+    runs = [(0, 0, 0, 5), (0, 1, 0, 1), (0, 1, 3, 5), (0, 2, 0, 1), (0, 2, 3, 5), (1, 0, 0, 2)]
+    owner, row, start, stop = np.array(runs).T
+    found = Footprints(owner, row, start, stop, columns=np.array([5, 2]), rows=np.array([3, 1]), around=0.0)
+    placed = pack_cells(found, 5)
+    assert placed is not None
+    np.testing.assert_array_equal(placed, [[0, 3], [0, 4]])
+    assert pack_cells(found, 4) is None

@@ -77,7 +77,7 @@ def pack_charts(charts: Sequence[ChartShape], margin: float | None = None) -> li
     ----------
     charts : sequence of positions (n,) complex and triangles (3, m)
         Each in a plane of its own, as large in relation to the others as it is to be. Other charts may come to lie in
-        its bays and holes.
+        its bays, not in its holes.
     margin : float, optional
         Kept between charts and to the square's sides, a part of its side; less where charts are too many for it.
 
