@@ -29,6 +29,8 @@ SMALLEST_GAP = 1e-12  # radians; neighbours as near as that are linked
 LEAST_FORCING = 1e-3  # of the gradient is left by a direction; the energy is so nearly quadratic that this pays
 LAST_FORCING = 1e-5  # and by the last one,
 LAST_PART = 0.7  # of the tolerance; the rest is for what is not quadratic
+SHORT = 96  # boundary vertices, where one step more costs next to nothing,
+SHORT_PART = 0.01  # and the tolerance is met by so much more: then nobody sees how directions were found
 
 
 class NewtonResult(NamedTuple):
@@ -73,7 +75,9 @@ def minimise_boundary_energy(
     links = _gaps(energy.theta) < SMALLEST_GAP
     kept = np.full_like(links, links.any())  # on a crowded boundary gaps are mostly rounding, and links stay
     degrees = problem.Lbb.diagonal()
-    tolerance = max(tolerance, 64.0 * float(EPS) * float(np.linalg.norm(degrees)))
+    rounding = 64.0 * float(EPS) * float(np.linalg.norm(degrees))
+    asked, part = tolerance, SHORT_PART if len(theta) <= SHORT else 1.0
+    tolerance = max(part * asked, rounding)
     first, status = None, Status.CONVERGED
     while True:  # every round makes a step or a link, and links are no more than vertices
         tangent = Tangent(gauge, energy.theta, links)
@@ -86,13 +90,14 @@ def minimise_boundary_energy(
                 norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         if first is None:
             first = norm
-            tolerance = max(tolerance, relative_tolerance * first)
+            asked = max(asked, relative_tolerance * first, rounding)
+            tolerance = max(part * asked, rounding)
         reached = log_fraction(norm, first, tolerance)
         progress("newton", reached)
         if norm <= tolerance:
             break
         if len(history) == max_iterations:
-            status = Status.MAX_ITERATIONS
+            status = Status.CONVERGED if norm <= asked else Status.MAX_ITERATIONS
             break
         direction, cg_steps = _newton_direction(energy, gauge, tangent, tolerance, partial(progress, "newton", reached))
         closed = ~links & (_gaps(energy.theta) < SMALLEST_GAP) & (np.roll(direction, -1) < direction)
@@ -102,7 +107,7 @@ def minimise_boundary_energy(
         found = _line_search(energy, gauge, tangent, direction)
         if found is None:
             log.debug("no descent left at projected gradient %.3g", norm)
-            status = Status.STALLED
+            status = Status.CONVERGED if norm <= asked else Status.STALLED
             break
         step_length, better = found
         if not watch(better):

@@ -7,10 +7,12 @@ from numpy.typing import NDArray
 
 from .loop_order import loop_order
 
-__all__ = ["boundary_loops"]
+__all__ = ["boundary_loops", "joined_loops"]
+
+Ints = NDArray[np.int64]
 
 
-def boundary_loops(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> list[NDArray[np.int64]]:
+def boundary_loops(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> list[Ints]:
     """Vertices of every boundary loop, in the direction of the faces' winding.
 
     Each loop starts at its first boundary half-edge when faces are read in order, edges (0, 1), (1, 2), (2, 0);
@@ -23,10 +25,16 @@ def boundary_loops(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> list[
     twin : (3 m,) int32
         As in HalfEdges.
     """
+    vertices, starts = joined_loops(corners, twin)
+    return np.split(vertices, starts[1:]) if len(starts) else []
+
+
+def joined_loops(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> tuple[Ints, Ints]:
+    """The same, one loop after the other (k,), and where each of them begins."""
     m = corners.shape[1]
     h = np.flatnonzero(twin == -1)
     if not len(h):
-        return []
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     h = h[np.argsort(h % m * 3 + h // m)]  # reading order
     tail = corners[h // m, h % m].astype(np.int64)
     head = corners[(h // m + 1) % 3, h % m].astype(np.int64)
@@ -36,4 +44,4 @@ def boundary_loops(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> list[
 
     loop, steps = loop_order(previous)
     order = np.lexsort((steps, loop))
-    return np.split(tail[order], np.flatnonzero(steps[order] == 0)[1:])
+    return tail[order], np.flatnonzero(steps[order] == 0)

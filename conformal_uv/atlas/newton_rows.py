@@ -1,0 +1,227 @@
+"""Newton's method on the boundary angles of many disks at once, each with its own steps.
+
+As `disk.newton`, for boundaries so short that the Hessian is at hand as a matrix: directions are solved for directly,
+not by conjugate gradients. Where the Hessian is not positive, neighbours come together, no step lowers the energy or
+the iteration does not end, nothing is decided here: that disk is left to the way that knows what to do then.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..disk.newton import LINEAR_TO, SHORT_PART, SMALLEST_GAP
+from ..optimize.line_search import HALVINGS, SUFFICIENT_DECREASE
+from .boundary_rows import EnergyRows, centred_rows
+
+__all__ = ["NewtonRows", "Step", "minimised_rows"]
+
+Ints = NDArray[np.int64]
+Real = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Complex = NDArray[np.complex128]
+
+EPS = float(np.finfo(np.float64).eps)
+DEPENDENT = 1e-12  # of the largest normal, up to which another one says the same
+
+
+class Step(NamedTuple):
+    """A step of some rows (k,): energies and projected gradients (k,) before it, and parts of the direction taken."""
+
+    row: Ints
+    value: Real
+    norm: Real
+    length: Real
+
+
+class NewtonRows(NamedTuple):
+    """What came of r disks.
+
+    Attributes
+    ----------
+    theta : (r, nb) float64
+    converged : (r,) bool
+        What is told of the others means nothing.
+    norm, first : (r,) float64
+        Norms of the projected gradient, at the end and at first.
+    steps : list of Step
+    """
+
+    theta: Real
+    converged: Bools
+    norm: Real
+    first: Real
+    steps: list[Step]
+
+
+def minimised_rows(
+    S: Real,
+    theta: Real,
+    measure: Real,
+    *,
+    held: bool,
+    tolerance: Real | float,
+    relative_tolerance: float,
+    max_iterations: int,
+) -> NewtonRows:
+    """Minimise the energies over the angles; the mean angle by the measure is kept.
+
+    Parameters
+    ----------
+    S : (r, nb, nb) float64
+        Flux operators.
+    theta, measure : (r, nb) float64
+        Start, increasing within one turn, and the measure.
+    held : bool
+        Whether the mean of the points by the measure is held at 0, too.
+    tolerance : float or (r,) float64
+    """
+    problem = _Problem(S, measure, np.einsum("rk,rk->r", measure, theta), held=held)
+    theta = problem.restored(theta)
+    goal = np.maximum(SHORT_PART * tolerance, 64.0 * EPS * problem.degrees)
+    norm, first = np.full(len(theta), np.nan), np.full(len(theta), np.nan)
+    converged = np.zeros(len(theta), dtype=bool)
+    steps: list[Step] = []
+    left = np.arange(len(theta))
+    for number in range(max_iterations + 1):
+        left = left[(_gaps(theta[left]) >= SMALLEST_GAP).all(axis=1)]
+        here = _Place(problem.some(left), theta[left])
+        norm[left] = here.norm
+        if number == 0:
+            first[left] = here.norm
+            goal[left] = np.maximum(goal[left], SHORT_PART * relative_tolerance * here.norm)
+        done = here.norm <= goal[left]
+        converged[left[done]] = True
+        if number == max_iterations or done.all():
+            break
+        left, here = left[~done], here.some(~done)
+        direction, sound = here.directions()
+        left, here, direction = left[sound], here.some(sound), direction[sound]
+        length, there = _line_search(here, direction)
+        taken = length > 0.0
+        left = left[taken]
+        theta[left] = there[taken]
+        steps.append(Step(left, here.energy.value[taken], here.norm[taken], length[taken]))
+    return NewtonRows(theta, converged, norm, first, steps)
+
+
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """Flux operators (r, nb, nb), measures (r, nb) and means (r,) of some rows; as `disk.gauge.CentreGauge` where it
+    is `held`, else as `TurnGauge`."""
+
+    S: Real
+    measure: Real
+    mean: Real
+    held: bool
+
+    @property
+    def degrees(self) -> Real:
+        """Sizes (r,) of the diagonals."""
+        return np.asarray(np.linalg.norm(np.einsum("rkk->rk", self.S), axis=1))
+
+    def some(self, kept: Bools | Ints) -> _Problem:
+        """That of some rows."""
+        if len(kept) == len(self.S) and (kept.dtype != bool or kept.all()):
+            return self
+        return _Problem(self.S[kept], self.measure[kept], self.mean[kept], self.held)
+
+    def restored(self, theta: Real) -> Real:
+        """Angles nearby that satisfy the constraints exactly."""
+        if self.held:
+            theta = centred_rows(theta, self.measure)
+        return np.asarray(theta + (self.mean - np.einsum("rk,rk->r", self.measure, theta))[:, None])
+
+    def normals(self, z: Complex) -> Real:
+        """(r, nb, 3) or (r, nb, 1), to which steps are orthogonal."""
+        measure = self.measure[:, :, None]
+        return measure * np.stack((np.ones(z.shape), z.real, z.imag), axis=2) if self.held else measure
+
+
+class _Place:
+    """Energies and projected gradients of some rows at some angles, and Newton's directions from there."""
+
+    def __init__(self, problem: _Problem, theta: Real) -> None:
+        self.problem, self.energy = problem, EnergyRows(problem.S, theta)
+        self._basis, self._size = np.linalg.qr(problem.normals(self.energy.z))
+        self.norm: Real = np.linalg.norm(self._projected(self.energy.gradient), axis=1)
+
+    def some(self, kept: Bools) -> _Place:
+        """Some of the rows."""
+        return self if kept.all() else _Place(self.problem.some(kept), self.energy.theta[kept])
+
+    def _projected(self, direction: Real) -> Real:
+        along = np.einsum("rkc,rk->rc", self._basis, direction)
+        return np.asarray(direction - np.einsum("rkc,rc->rk", self._basis, along))
+
+    def directions(self) -> tuple[Real, Bools]:
+        """Newton's directions (r, nb), and of which rows they lead to a minimum."""
+        basis, across = self._basis, self._basis.transpose(0, 2, 1)
+        diagonal = np.abs(np.einsum("rcc->rc", self._size))
+        sound = diagonal.min(axis=1) > DEPENDENT * diagonal.max(axis=1)
+        H = self.energy.hessian()
+        if self.problem.held:
+            np.einsum("rkk->rk", H)[...] += self._bend(sound)
+        H -= basis @ (across @ H)
+        H -= (H @ basis) @ across
+        H += basis @ across
+        H = 0.5 * (H + H.transpose(0, 2, 1))
+        try:
+            np.linalg.cholesky(H)
+        except np.linalg.LinAlgError:
+            sound &= np.linalg.eigvalsh(H)[:, 0] > 0.0
+            H[~sound] = np.eye(H.shape[1])
+        gradient = self._projected(self.energy.gradient)
+        return self._projected(np.linalg.solve(H, -gradient[:, :, None])[:, :, 0]), sound
+
+    def _bend(self, sound: Bools) -> Real:
+        """As `disk.gauge.CentreGauge.curvature`."""
+        size = np.where(sound[:, None, None], self._size, np.eye(3))
+        along = np.einsum("rkc,rk->rc", self._basis, self.energy.gradient)
+        multiplier = np.linalg.solve(size, along[:, :, None])
+        z = self.energy.z
+        return np.asarray(self.problem.measure * (multiplier[:, 1] * z.imag - multiplier[:, 2] * z.real))
+
+
+def _line_search(here: _Place, direction: Real) -> tuple[Real, Real]:
+    """Parts (r,) of the directions, 0 where no step does, and the angles there; as `optimize.line_search`."""
+    value, slope = here.energy.value, np.einsum("rk,rk->r", here.energy.gradient, direction)
+    noise = EPS * (64.0 * (np.abs(value) + np.pi) + 4.0 * here.problem.degrees)
+    taken, theta = np.zeros(len(slope)), here.energy.theta.copy()
+    left, length = np.arange(len(slope)), 1.0
+    for _ in range(HALVINGS):
+        problem = here.problem.some(left)
+        there = _Place(problem, problem.restored(_in_order(here.energy.theta[left], length * direction[left])))
+        change = there.energy.value - value[left]
+        falls = (change <= SUFFICIENT_DECREASE * length * slope[left]) & (change < -noise[left])
+        falls |= (np.abs(change) <= noise[left]) & (there.norm < here.norm[left])
+        taken[left[falls]], theta[left[falls]] = length, there.energy.theta[falls]
+        left, length = left[~falls], 0.5 * length
+        if not len(left):
+            break
+    return taken, theta
+
+
+def _gaps(theta: Real) -> Real:
+    """Angle from each vertex to the next, (r, nb)."""
+    return np.diff(theta, append=theta[:, :1] + 2.0 * np.pi)
+
+
+def _in_order(theta: Real, step: Real) -> Real:
+    """As `disk.newton.in_order`, row by row."""
+    gaps = _gaps(theta)
+    change = np.roll(step, -1, axis=1) - step
+    least = (LINEAR_TO - 1.0) * np.maximum(gaps, 0.0)
+    out = theta + step
+    rows = np.flatnonzero((change < least).any(axis=1))
+    if not len(rows):
+        return out
+    gaps, change, least = gaps[rows], change[rows], least[rows]
+    beyond = np.maximum(change - least, -700.0 * gaps) / (LINEAR_TO * gaps)
+    kept = np.where(change < least, LINEAR_TO * gaps * np.exp(np.minimum(beyond, 0.0)), gaps + change)
+    kept *= (2.0 * np.pi / kept.sum(axis=1))[:, None]
+    out[rows, 1:] = out[rows, :1] + np.cumsum(kept, axis=1)[:, :-1]
+    return out

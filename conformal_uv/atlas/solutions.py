@@ -1,0 +1,142 @@
+"""The linear and Newton's solutions of many disks, before they are placed."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..disk.centre_cell import WORTH_WHILE
+from ..operators.dirichlet import DirichletProblem
+from ..optimize import NewtonStep
+from ..options import DiskOptions
+from .boundary_rows import EnergyRows, FluxMatrices, centred_rows
+from .disks import Disks
+from .loop_rows import loop_rows
+from .measures import Measures
+from .newton_rows import minimised_rows
+
+__all__ = ["NewtonSolver", "linear_positions"]
+
+Ints = NDArray[np.int64]
+Real = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Complex = NDArray[np.complex128]
+
+
+def linear_positions(disks: Disks, problem: DirichletProblem, seen: Measures) -> Complex:
+    """Positions of all vertices (n,): angles from the harmonic measures, harmonically extended."""
+    theta = seen.theta.copy()
+    for rows in loop_rows(disks.first_boundary, np.flatnonzero(seen.found)):
+        theta[rows.at] = centred_rows(seen.theta[rows.at], seen.vertex_measure[rows.at])
+    return problem.extend(np.exp(1j * theta))
+
+
+class _Round(NamedTuple):
+    """A step of some disks (k,), ascending: energies and gradients before it, and parts of the direction taken."""
+
+    disk: Ints
+    value: Real
+    norm: Real
+    length: Real
+
+
+class NewtonSolver:
+    """Newton's solutions of c disks, from the linear ones.
+
+    Attributes
+    ----------
+    z : (n,) complex128
+        Positions of all vertices.
+    converged : (c,) bool
+        What is told of the others means nothing.
+    """
+
+    def __init__(self, disks: Disks, problem: DirichletProblem, seen: Measures, options: DiskOptions) -> None:
+        count = len(disks)
+        self._disks, self._seen, self._options = disks, seen, options
+        self._S = FluxMatrices(problem, disks.first_boundary)
+        self._theta, self._rounds = seen.theta.copy(), list[_Round]()
+        self.converged = np.zeros(count, dtype=bool)
+        self._norm, self._first = np.full(count, np.nan), np.full(count, np.nan)
+        self._minimise(np.flatnonzero(seen.found), options.tolerance, held=True)
+        self.z = problem.extend(np.exp(1j * self._theta))
+        free = self._worth_releasing()
+        if len(free):
+            self._release(free)
+            self.z = problem.extend(np.exp(1j * self._theta))
+
+    def history(self, disk: int) -> tuple[NewtonStep, ...]:
+        """A row for each iterate; directions are solved for without conjugate gradients."""
+        steps = []
+        for made in self._rounds:
+            at = int(np.searchsorted(made.disk, disk))
+            if at < len(made.disk) and made.disk[at] == disk:
+                steps.append(NewtonStep(float(made.value[at]), float(made.norm[at]), 0, float(made.length[at])))
+        (rows,) = loop_rows(self._disks.first_boundary, np.array([disk]))
+        value = EnergyRows(self._S.of(rows), self._theta[rows.at]).value
+        return (*steps, NewtonStep(float(value[0]), float(self._norm[disk]), 0, 0.0))
+
+    def _minimise(self, chosen: Ints, tolerance: Real | float, *, held: bool) -> None:
+        """Of the chosen disks, from where they are; `tolerance` is of all disks or of each (c,)."""
+        for rows in loop_rows(self._disks.first_boundary, chosen):
+            found = minimised_rows(
+                self._S.of(rows),
+                self._theta[rows.at],
+                self._seen.vertex_measure[rows.at],
+                held=held,
+                tolerance=tolerance if isinstance(tolerance, float) else tolerance[rows.disk],
+                relative_tolerance=self._options.relative_tolerance if held else 0.0,
+                max_iterations=self._options.max_iterations,
+            )
+            self._theta[rows.at] = found.theta
+            self.converged[rows.disk], self._norm[rows.disk] = found.converged, found.norm
+            if held:
+                self._first[rows.disk] = found.first
+            self._rounds += [
+                _Round(rows.disk[step.row], step.value, step.norm, step.length) for step in found.steps
+            ]
+
+    def _worth_releasing(self) -> Ints:
+        """Disks whose centres may be released, as `disk.centre_cell` decides."""
+        reach = self._reach()
+        found = [np.empty(0, dtype=np.int64)]
+        for rows in loop_rows(self._disks.first_boundary, np.flatnonzero(self.converged & (reach > 0.0))):
+            energy = EnergyRows(self._S.of(rows), self._theta[rows.at])
+            moves, worth, far = energy.moebius_moves(), WORTH_WHILE * energy.value, reach[rows.disk]
+            slope = np.einsum("rkc,rk->rc", moves, energy.gradient)
+            curvature = moves.transpose(0, 2, 1) @ energy.hessian() @ moves
+            convex = np.linalg.eigvalsh(curvature)[:, 0] > 0.0
+            step = np.linalg.solve(np.where(convex[:, None, None], curvature, np.eye(2)), slope[:, :, None])[:, :, 0]
+            gain = 0.5 * np.einsum("rc,rc->r", slope, step)
+            worthy = (0.5 * np.linalg.norm(slope, axis=1) * far >= worth) & convex
+            found.append(rows.disk[worthy & (np.linalg.norm(step, axis=1) < far) & (gain >= worth)])
+        return np.sort(np.concatenate(found))
+
+    def _reach(self) -> Real:
+        """Distance (c,) of the farthest neighbour of each centre from it; 0 where there is no centre."""
+        disks, centre = self._disks, self._seen.centre
+        lo, hi = disks.edges.lo, disks.edges.hi
+        of_edge = disks.of_vertex[lo]
+        at = np.flatnonzero((centre[of_edge] == lo) | (centre[of_edge] == hi))
+        reach = np.zeros(len(disks))
+        np.maximum.at(reach, of_edge[at], np.abs(self.z[lo[at]] - self.z[hi[at]]))
+        return reach
+
+    def _release(self, free: Ints) -> None:
+        """Minimise without holding the centres, where that keeps them in their cells."""
+        kept = self._theta.copy(), self._norm.copy(), len(self._rounds)
+        reach = self._reach()
+        least = np.full(len(self._disks), self._options.tolerance)
+        np.fmax(least, self._options.relative_tolerance * self._first, out=least)
+        self._minimise(free, least, held=False)
+        for rows in loop_rows(self._disks.first_boundary, free):
+            mean = np.einsum("rk,rk->r", self._seen.vertex_measure[rows.at], np.exp(1j * self._theta[rows.at]))
+            back = (np.abs(mean) >= reach[rows.disk]) & self.converged[rows.disk]
+            self._theta[rows.at[back]] = kept[0][rows.at[back]]
+            self._norm[rows.disk[back]] = kept[1][rows.disk[back]]
+            gone = rows.disk[back]
+            for number in range(kept[2], len(self._rounds)):
+                made = self._rounds[number]
+                self._rounds[number] = _Round(*(part[~np.isin(made.disk, gone)] for part in made))
