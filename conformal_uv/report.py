@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .charts import Chart, Placement, Unwrapped
+from .charts import ChartList, Unwrapped
 from .mesh.polygons import PolygonMesh
 from .mesh.triangulate import triangulate
 from .operators import Distortion
 from .operators.orientation_sign import orientation_signs
-from .operators.wirtinger import planar_sides, signed_double_areas
 
 __all__ = [
     "DistortionNumbers",
     "UnwrapNumbers",
-    "coverage",
     "distortion_numbers",
     "flipped_polygons",
     "unwrap_numbers",
@@ -157,64 +155,45 @@ def unwrap_numbers(
     >>> numbers.mapped_charts, numbers.distortion.angle_mean < numbers.distortion.angle_rms
     (1, True)
     """
-    stored = result.uv if uv is None else uv
-    taken = [chart.map is not None for chart in result.charts] if chosen is None else chosen.tolist()
-    done = [chart for chart, take in zip(result.charts, taken, strict=True) if take]
-    maps = [chart.map for chart in done if chart.map is not None]
-    distortions = [chart.distortion for chart in done if chart.distortion is not None]
-    empty = np.empty(0, dtype=np.int64)
+    stored = np.asarray(result.uv if uv is None else uv, dtype=np.float64)
+    charts, solutions = result.charts, result.charts.solutions
+    taken = charts.mapped if chosen is None else np.asarray(chosen, dtype=bool)
+    done = np.flatnonzero(taken)
+    conformal, dirichlet = solutions.energies()
+    image = charts.image_areas(stored)
+    placed = uv is not None or charts.placed.moved(done)
     return UnwrapNumbers(
-        charts=len(result.charts),
+        charts=len(charts),
         mapped_charts=len(done),
-        converged_charts=sum(found.converged for found in maps),
-        triangles=sum(len(chart.F) for chart in result.charts),
-        vertices=len(np.unique(np.concatenate([empty, *(chart.vertices for chart in result.charts)]))),
-        distortion=distortion_numbers(distortions, [_enlarged(chart, stored) for chart in done]) if done else None,
-        conformal_energy=sum(found.conformal_energy for found in maps),
-        dirichlet_energy=sum(found.dirichlet_energy for found in maps),
-        flipped=np.concatenate([empty, *(chart.flipped for chart in done)]),
-        lost_to_double=sum(len(found.lost_to_double) for found in maps),
+        converged_charts=int(solutions.converged[done].sum()),
+        triangles=len(charts.corner),
+        vertices=charts.meshes.used_vertices(),
+        distortion=_joined_numbers(charts, taken, image) if len(done) else None,
+        conformal_energy=float(conformal[done].sum()),
+        dirichlet_energy=float(dirichlet[done].sum()),
+        flipped=charts.flipped(done),
+        lost_to_double=int(solutions.lost_to_double()[done].sum()),
         lost_to_float32=np.where(taken, result.lost_to_float32(stored), 0),
-        coverage=coverage(stored, done)
-        if uv is not None or any(chart.placement != Placement() for chart in done)
-        else None,
+        coverage=_coverage(charts, taken, stored, image) if placed else None,
     )
 
 
-def coverage(uv: NDArray[np.float64], charts: Sequence[Chart]) -> float | None:
-    """Share of the unit square that charts without overlaps fill; None where one reaches out of it.
+def _joined_numbers(charts: ChartList, taken: NDArray[np.bool_], image: NDArray[np.float64]) -> DistortionNumbers:
+    """Of all triangles of the charts taken (c,); their areas as stored."""
+    found, own = charts.distortion(taken)
+    plane = charts.solutions.image_areas()
+    enlarged = np.divide(image, plane, out=np.ones(len(plane)), where=plane > 0.0)
+    return distortion_numbers([replace(found, area_scale=found.area_scale * enlarged[charts.chart_of_triangle[own]])])
 
-    Parameters
-    ----------
-    uv : (k, 2) floats
-        Of every polygon corner.
-    charts : sequence of Chart
-        Mapped ones.
 
-    Examples
-    --------
-    >>> import conformal_uv as cuv
-    >>> from conformal_uv.samples import mask
-    >>> u = cuv.unwrap(*mask(500))
-    >>> 0.77 < cuv.unwrap_numbers(u).coverage < 0.7854  # a disk that fills the square
-    True
-    """
-    used = [uv[chart.corner] for chart in charts]
-    if not used or min(part.min() for part in used) < -BEYOND or max(part.max() for part in used) > 1.0 + BEYOND:
+def _coverage(
+    charts: ChartList, taken: NDArray[np.bool_], uv: NDArray[np.float64], image: NDArray[np.float64]
+) -> float | None:
+    """Share of the unit square that charts without overlaps fill; None where one reaches out of it."""
+    used = uv[charts.corner[taken[charts.chart_of_triangle]]]
+    if not used.size or used.min() < -BEYOND or used.max() > 1.0 + BEYOND:
         return None
-    return sum(_area(uv, chart.corner) for chart in charts)
-
-
-def _enlarged(chart: Chart, stored: NDArray[np.float64]) -> float:
-    """Area of the chart in the texture over that in its own plane."""
-    assert chart.map is not None
-    own = _area(chart.map.uv, chart.F)
-    return _area(stored, chart.corner) / own if own > 0.0 else 1.0
-
-
-def _area(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> float:
-    z = np.ascontiguousarray(uv, dtype=np.float64).view(np.complex128).reshape(-1)
-    return 0.5 * float(np.abs(signed_double_areas(planar_sides(z, triangles.T.astype(np.int32)))).sum())
+    return float(image[taken].sum())
 
 
 def flipped_polygons(mesh: PolygonMesh, corner_uv: NDArray[np.floating]) -> NDArray[np.int64]:

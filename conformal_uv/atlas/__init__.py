@@ -2,6 +2,7 @@
 
 from .atlas_maps import AtlasMaps
 from .disk_atlas import DiskAtlas, takes
-from .disks import Disks, sound_disks
+from .disks import Disks, places, sound_disks
+from .finish import Turns
 
-__all__ = ["AtlasMaps", "DiskAtlas", "Disks", "sound_disks", "takes"]
+__all__ = ["AtlasMaps", "DiskAtlas", "Disks", "Turns", "places", "sound_disks", "takes"]

@@ -35,6 +35,8 @@ class AtlasMaps:
         The disks that were mapped; what is told of the others means nothing.
     by_newton : (c,) bool
         Whose maps Newton's method has made, not the linear one.
+    conformal, dirichlet : (c,) float64
+        Energies.
     """
 
     def __init__(
@@ -50,7 +52,7 @@ class AtlasMaps:
     ) -> None:
         self.disks, self.z, self.good, self.by_newton = disks, z, good, by_newton
         self._newton, self._options, self._intrinsic, self._backend = newton, options, intrinsic, problem.backend
-        self._conformal, self._area = _energies(disks, z)
+        self.conformal, self.dirichlet = _energies(disks, z)
 
     def __getitem__(self, disk: int) -> DiskMap:
         """The map of one of them."""
@@ -63,12 +65,11 @@ class AtlasMaps:
             history, status = self._newton.history(disk), Status.CONVERGED
         none = np.empty(0, dtype=np.int64)
         own = self.z[disks.first_vertex[disk] : disks.first_vertex[disk + 1]]
-        conformal = float(self._conformal[disk])
         return DiskMap(
             uv=own.copy().view(np.float64).reshape(-1, 2),
             boundary=surface.loops[0],
-            dirichlet_energy=conformal + float(self._area[disk]),
-            conformal_energy=conformal,
+            dirichlet_energy=float(self.dirichlet[disk]),
+            conformal_energy=float(self.conformal[disk]),
             flipped=none,
             lost_to_double=none,
             converged=True,
@@ -86,7 +87,7 @@ class AtlasMaps:
 
 
 def _energies(disks: Disks, z: Complex) -> tuple[Real, Real]:
-    """Conformal energies (c,) and areas of the images, as `operators.wirtinger` has them of one map."""
+    """Conformal and Dirichlet energies (c,), as `operators.wirtinger` has them of one map."""
     p1, p2 = unfolded_sides(disks.geometry)
     q1, q2 = planar_sides(z, disks.corners)
     residual = q2 * p1 - q1 * p2
@@ -94,7 +95,8 @@ def _energies(disks: Disks, z: Complex) -> tuple[Real, Real]:
     zb = z[disks.loop]
     ahead, _ = neighbours(disks.first_boundary)
     enclosed = np.imag(np.conj(zb) * zb[ahead])
-    return np.bincount(disks.of_face, lost, len(disks)), 0.5 * np.bincount(disks.of_boundary, enclosed, len(disks))
+    conformal = np.bincount(disks.of_face, lost, len(disks))
+    return conformal, conformal + 0.5 * np.bincount(disks.of_boundary, enclosed, len(disks))
 
 
 def _surface(disks: Disks, disk: int) -> Surface:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +65,8 @@ class ChartMeshes:
         Where each chart begins; `first_virtual` where its virtual vertices do.
     area : (count,) float64
         Surface area of each chart's own triangles, over the largest coordinate squared.
+    unit : float
+        The largest coordinate.
     """
 
     V: Real
@@ -79,6 +82,7 @@ class ChartMeshes:
     first_face: Ints
     first_solved: Ints
     area: Real
+    unit: float
 
     def __getitem__(self, chart: int) -> ChartMesh:
         vertices = slice(self.first_vertex[chart], self.first_vertex[chart + 1])
@@ -94,6 +98,46 @@ class ChartMeshes:
             solved=self.solved[solved],
             solved_polygon=self.solved_polygon[solved],
         )
+
+    @cached_property
+    def chart_of_face(self) -> Ints:
+        """The chart of each row of F."""
+        return np.repeat(np.arange(len(self.area)), np.diff(self.first_face))
+
+    @cached_property
+    def chart_of_vertex(self) -> Ints:
+        """The chart of each vertex; those of no chart, at the end, are left out."""
+        return np.repeat(np.arange(len(self.area)), np.diff(self.first_vertex))
+
+    def used_vertices(self) -> int:
+        """How many of the caller's vertices the charts have."""
+        site = self.site[: self.first_vertex[-1]]
+        used = np.zeros(int(self.vertex_of_site.max(initial=-1)) + 1, dtype=bool)
+        used[self.vertex_of_site[site[site < len(self.vertex_of_site)]]] = True
+        return int(used.sum())
+
+    def with_any(self, vertices: Ints) -> NDArray[np.bool_]:
+        """Charts (count,) that have one of some of the caller's vertices."""
+        site = self.site[: self.first_vertex[-1]]
+        own = np.flatnonzero(site < len(self.vertex_of_site))
+        out = np.zeros(len(self.area), dtype=bool)
+        out[self.chart_of_vertex[own[np.isin(self.vertex_of_site[site[own]], vertices)]]] = True
+        return out
+
+    def scaled_vertices(self, charts: NDArray[np.bool_]) -> tuple[Real, Real]:
+        """V with some charts (count,) scaled as `mesh.arrays.scaled` does, and the unit of each, (count,)."""
+        some = charts[self.chart_of_vertex]
+        largest = np.zeros(len(charts))
+        np.maximum.at(largest, self.chart_of_vertex[some], np.abs(self.V[: len(some)][some]).max(axis=1))
+        exponent = np.minimum(np.frexp(largest)[1], 1023)
+        V = self.V.copy()
+        V[: len(some)][some] = np.ldexp(V[: len(some)][some], -exponent[self.chart_of_vertex[some]][:, None])
+        return V, np.ldexp(1.0, exponent)
+
+    @cached_property
+    def F_of_all(self) -> Ints:
+        """F with the vertices numbered through all charts."""
+        return self.F + self.first_vertex[self.chart_of_face][:, None]
 
     def weights(self) -> Ints:
         """Number of triangles to solve on in each chart, (count,)."""
@@ -144,6 +188,7 @@ def chart_meshes(mesh: PolygonMesh, surface: CutSurface, count: int) -> ChartMes
         first_face=first_face,
         first_solved=first_solved,
         area=0.5 * np.bincount(surface.chart[polygon], double, minlength=count).astype(np.float64),
+        unit=scale,
     )
 
 

@@ -35,8 +35,8 @@ class ChartProgress:
     def __init__(self, callback: Callback | None) -> None:
         self._progress = Progress(callback)
         self._reached = 0.0
-        self._ends: NDArray[np.float64] = np.zeros(1)
-        self._chart = 0
+        self._weights: NDArray[np.float64] = np.ones(1)
+        self._done = self._begun = 0.0
         self.wanted = callback is not None
 
     def report(self, stage: str, fraction: float) -> None:
@@ -45,17 +45,16 @@ class ChartProgress:
         self._progress(stage, self._reached)
 
     def weigh(self, triangles: NDArray[np.int64]) -> None:
-        """Set the share of each chart (count,); charts are mapped from the first on."""
-        ends = np.concatenate(([0.0], np.cumsum(triangles)))
-        self._ends = SPLITTING + (PLACING - SPLITTING) * ends / max(ends[-1], 1.0)
+        """Set the share of each chart (count,)."""
+        self._weights = triangles / max(float(triangles.sum()), 1.0)
 
-    def start(self, chart: int) -> None:
-        """What follows is about this chart."""
-        self._chart = chart
+    def start(self, charts: int | NDArray[np.int64]) -> None:
+        """What follows is about this chart, or about these together; those before are done."""
+        self._done += self._begun
+        self._begun = float(self._weights[charts].sum())
 
     def __call__(self, stage: str, fraction: float) -> None:
         """The callback given to a map."""
         low, high = STAGES.get(stage, (0.0, 0.0))
-        part = low + (high - low) * fraction
-        begin, end = self._ends[self._chart], self._ends[self._chart + 1]
-        self.report(stage, float(begin + (end - begin) * part))
+        part = self._done + self._begun * (low + (high - low) * fraction)  # more than 1 where charts are begun again
+        self.report(stage, SPLITTING + (PLACING - SPLITTING) * min(part, 1.0))

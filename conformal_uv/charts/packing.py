@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from ..options import Place
 from .outlines import Outlines, chart_outlines, disk_outlines
 from .square_packing import pack_outlines
 
-__all__ = ["Placement", "kept_margin", "pack_charts", "pack_disks", "placements"]
+__all__ = ["Placement", "Placements", "kept_margin", "pack_charts", "pack_disks", "placements"]
 
 Real = NDArray[np.float64]
 ChartShape = tuple[NDArray[np.complex128], NDArray[np.integer]]
@@ -37,13 +38,34 @@ class Placement:
     scale: float = 1.0
 
 
+class Placements(NamedTuple):
+    """The places of k charts: centers (k,) complex128 and scales (k,)."""
+
+    center: NDArray[np.complex128]
+    scale: Real
+
+    @classmethod
+    def untouched(cls, count: int) -> Placements:
+        """Of charts that stay as they are in their own planes."""
+        return cls(np.zeros(count, dtype=np.complex128), np.ones(count))
+
+    def moved(self, numbers: NDArray[np.int64]) -> bool:
+        """Whether one of some charts is not where it is in its own plane."""
+        return bool((self.center[numbers] != 0.0).any() or (self.scale[numbers] != 1.0).any())
+
+    def of(self, number: int) -> Placement:
+        """The place of one of them."""
+        center = self.center[number]
+        return Placement((float(center.real), float(center.imag)), float(self.scale[number]))
+
+
 def placements(
     place: Place,
     margin: float | None,
     area: Real,
     image_area: Real,
     charts: Sequence[ChartShape] | None = None,
-) -> list[Placement]:
+) -> Placements:
     """A placement for each mapped chart.
 
     Parameters
@@ -57,9 +79,9 @@ def placements(
         The charts in their planes; unit disks where none are given.
     """
     if place is Place.DISK or not len(area):
-        return [Placement()] * len(area)
+        return Placements.untouched(len(area))
     if charts is None and len(area) == 1:
-        return [Placement((0.5, 0.5), 0.5 - (margin or 0.0))]
+        return Placements(np.array([0.5 + 0.5j]), np.array([0.5 - (margin or 0.0)]))
     outlines = disk_outlines(np.ones(len(area))) if charts is None else chart_outlines(charts)
     full = np.pi if charts is None else outlines.size.real * outlines.size.imag
     least = np.maximum(image_area, LEAST_FILL * full)
@@ -67,7 +89,7 @@ def placements(
     if not scale.max() > 0.0:
         scale = np.ones(len(area))
     center, common = _in_unit_square(outlines.scaled(scale), margin)
-    return [_placement(*found) for found in zip(center, scale * common, strict=True)]
+    return Placements(center, scale * common)
 
 
 def pack_charts(charts: Sequence[ChartShape], margin: float | None = None) -> list[Placement]:
@@ -89,7 +111,8 @@ def pack_charts(charts: Sequence[ChartShape], margin: float | None = None) -> li
     if not len(charts):
         return []
     center, scale = _in_unit_square(chart_outlines(charts), margin)
-    return [_placement(point, scale) for point in center]
+    found = Placements(center, np.full(len(center), scale))
+    return [found.of(number) for number in range(len(center))]
 
 
 def pack_disks(radius: Real, margin: float) -> tuple[Real, float]:
@@ -112,7 +135,3 @@ def _in_unit_square(outlines: Outlines, margin: float | None) -> tuple[NDArray[n
         margin = kept_margin(PACKED_MARGIN if margin is None else margin, len(outlines))
     place, side = pack_outlines(outlines, margin or 0.0)
     return (place - outlines.low) / side, 1.0 / side
-
-
-def _placement(center: complex, scale: float) -> Placement:
-    return Placement((float(center.real), float(center.imag)), float(scale))

@@ -7,13 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk import DiskMap
-from ..operators import face_areas
-from ..operators.wirtinger import planar_sides, signed_double_areas
 from ..options import Place
-from .chart import Chart, Unwrapped
+from .chart_list import ChartList
 from .outlines import unit_disk
 from .packing import placements
+from .unwrapped import Unwrapped
 
 __all__ = ["pack_together"]
 
@@ -53,38 +51,39 @@ def pack_together(
     >>> bool(min(one.min(), other.min()) >= 0.0 and max(one.max(), other.max()) <= 1.0)
     True
     """
-    charts = [(number, chart) for number, chart in _chosen(results, wanted)]
-    area = np.array([face_areas(chart.mesh.V, chart.F).sum() for _, chart in charts])
+    taken = [np.flatnonzero(mask) for mask in wanted]
+    lists = [result.charts for result in results]
+    area = np.concatenate([charts.surface_areas()[own] for charts, own in zip(lists, taken, strict=True)])
     largest = float(area.max(initial=0.0))
-    image = np.array([_image_area(chart, results[number].uv) for number, chart in charts])
+    image = [charts.image_areas(result.uv)[own] for result, charts, own in zip(results, lists, taken, strict=True)]
     shapes = None
-    if not all(isinstance(chart.map, DiskMap) for _, chart in charts):
-        shapes = [_shape(chart, results[number].uv) for number, chart in charts]
-    placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, image, shapes)
-    out = [result.uv.copy() for result in results]
-    for (number, chart), place in zip(charts, placed, strict=True):
-        own = np.unique(chart.corner)
-        out[number][own] = np.asarray(place.center) + place.scale * results[number].uv[own]
+    if not all(charts.solutions.is_disk[own].all() for charts, own in zip(lists, taken, strict=True)):
+        shapes = [
+            _shape(charts, number, result.uv)
+            for result, charts, own in zip(results, lists, taken, strict=True)
+            for number in own.tolist()
+        ]
+    placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, np.concatenate(image), shapes)
+    out, first = [], 0
+    for result, charts, own in zip(results, lists, taken, strict=True):
+        center, scale = np.zeros(len(charts), dtype=np.complex128), np.ones(len(charts))
+        center[own] = placed.center[first : first + len(own)]
+        scale[own] = placed.scale[first : first + len(own)]
+        moved = np.zeros(len(charts), dtype=bool)
+        moved[own] = True
+        here = moved[charts.chart_of_triangle]
+        corner, chart = charts.corner[here], charts.chart_of_triangle[here][:, None]
+        uv = result.uv.copy()
+        z = center[chart] + scale[chart] * result.uv[corner].view(np.complex128)[..., 0]
+        uv[corner] = np.stack((z.real, z.imag), axis=2)
+        out.append(uv)
+        first += len(own)
     return out
 
 
-def _chosen(results: Sequence[Unwrapped], wanted: Sequence[NDArray[np.bool_]]) -> list[tuple[int, Chart]]:
-    return [
-        (number, chart)
-        for number, (result, mask) in enumerate(zip(results, wanted, strict=True))
-        for chart, take in zip(result.charts, mask, strict=True)
-        if take
-    ]
-
-
-def _shape(chart: Chart, uv: NDArray[np.float64]) -> tuple[NDArray[np.complex128], NDArray[np.int64]]:
+def _shape(charts: ChartList, number: int, uv: NDArray[np.float64]) -> tuple[NDArray[np.complex128], NDArray[np.int64]]:
     """Positions and triangles that cover the chart: those of the whole disk, or its own."""
-    if isinstance(chart.map, DiskMap):
+    if charts.solutions.is_disk[number]:
         return unit_disk()
-    own, triangles = np.unique(chart.corner, return_inverse=True)
+    own, triangles = np.unique(charts[number].corner, return_inverse=True)
     return np.ascontiguousarray(uv[own]).view(np.complex128).reshape(-1), triangles.reshape(-1, 3).T
-
-
-def _image_area(chart: Chart, uv: NDArray[np.float64]) -> float:
-    z = np.ascontiguousarray(uv).view(np.complex128).reshape(-1)
-    return 0.5 * float(np.abs(signed_double_areas(planar_sides(z, chart.corner.T.astype(np.int32)))).sum())

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from ..progress import Callback
 from .arguments import Polygons
-from .chart import Unwrapped
+from .unwrapped import Unwrapped
 from .unwrapper import Unwrapper, Vertices
 
 __all__ = ["unwrap"]

@@ -9,20 +9,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..disk import DiskMap
 from ..linear.backends import choose_backend
-from ..options import ChartOptions, DiskOptions, Laplacian, Place, PlaceOptions, ShapeOptions, SplitOptions
+from ..options import ChartOptions, DiskOptions, Laplacian, Place, PlaceOptions, Shape, ShapeOptions, SplitOptions
 from ..progress import Callback
 from .arguments import Polygons, polygon_mesh, seam_pairs, selected_polygons, used_vertices, vertex_list
-from .chart import Chart, Unwrapped
-from .chart_mapper import ChartMapper, ChartSolution
-from .chart_meshes import ChartMesh, chart_meshes
+from .chart_atlas import ChartAtlas
+from .chart_list import ChartList
+from .chart_mapper import ChartMapper
+from .chart_meshes import chart_meshes
 from .chart_progress import PLACING, SPLITTING, ChartProgress
+from .chart_solutions import ChartSolutions
 from .disks import made_disks
 from .named_vertices import NamedVertices
 from .outlines import unit_disk
-from .packing import Placement, placements
+from .packing import Placements, placements
 from .splitting import split_into_charts
+from .unwrapped import Unwrapped
 
 __all__ = ["Unwrapper"]
 
@@ -72,10 +74,9 @@ class Unwrapper:
         how = SplitOptions(outer_loop=vertex_list("outer_loop", outer_loop, self._used), **options)
         split = self._split = made_disks(split_into_charts(mesh, finite, selected, seam_pairs(seams), how), how)
         self._meshes = chart_meshes(split.mesh, split.surface, split.count)
-        self._mappers = [
-            ChartMapper(self._meshes[number], selected, split.faults.get(number), kind, backend)
-            for number in range(split.count)
-        ]
+        self._atlas = ChartAtlas(self._meshes, split.sound, kind, backend)
+        self._selected, self._laplacian, self._backend = selected, kind, backend
+        self._mappers: dict[int, ChartMapper] = {}
 
     def unwrap(
         self,
@@ -105,21 +106,44 @@ class Unwrapper:
         progress = ChartProgress(callback)
         progress.report("charts", SPLITTING)
         progress.weigh(self._meshes.weights())
-        solutions = []
-        for number, (mapper, shape) in enumerate(zip(self._mappers, shapes.of_charts(len(self._mappers)), strict=True)):
-            progress.start(number)
-            solutions.append(mapper.solve(shape, how, vertices, progress if progress.wanted else None))
+        solutions = self._solved(shapes.of_charts(self._split.count), how, vertices, progress)
         self._check_used(vertices, solutions, offered=isinstance(pins, set | frozenset))
         progress.report("packing", PLACING)
         result = self._assembled(solutions, where)
         progress.report("packing", 1.0)
         return result
 
-    def _check_used(self, vertices: NamedVertices, solutions: list[ChartSolution], *, offered: bool) -> None:
-        """Raise OptionError on a center, boundary vertex or pin that no chart could use; pins may be only `offered`."""
+    def _solved(
+        self, shapes: list[Shape], how: ChartOptions, vertices: NamedVertices, progress: ChartProgress
+    ) -> ChartSolutions:
+        """All charts mapped: small disks together, the others and what is left of those one by one."""
+        solutions = ChartSolutions(self._meshes)
+        together = np.array([shape is Shape.DISK for shape in shapes], dtype=bool)
+        if vertices:
+            together &= ~self._meshes.with_any(np.concatenate((vertices.center, vertices.boundary_vertex, vertices.pins)))
+        for maps in self._atlas.maps(together, how, progress):
+            solutions.take(maps)
+        callback = progress if progress.wanted else None
+        for number in np.flatnonzero(~solutions.mapped).tolist():
+            progress.start(number)
+            solutions.put(number, self._mapper(number).solve(shapes[number], how, vertices, callback))
+        return solutions
+
+    def _mapper(self, number: int) -> ChartMapper:
+        if number not in self._mappers:
+            self._mappers[number] = ChartMapper(
+                self._meshes[number], self._selected, self._split.faults.get(number), self._laplacian, self._backend
+            )
+        return self._mappers[number]
+
+    def _check_used(self, vertices: NamedVertices, solutions: ChartSolutions, *, offered: bool) -> None:
+        """Raise OptionError on a center, boundary vertex or pin that no chart could use; pins may be only `offered`.
+
+        Charts that were mapped together have none of them.
+        """
         if not vertices:
             return
-        pairs = list(zip(self._mappers, solutions, strict=True))
+        pairs = [(self._mapper(number), solution) for number, solution in solutions.alone.items()]
         excused = [mapper.mesh.vertices for mapper, solution in pairs if solution.map is None]
         if offered:
             excused.append(vertices.pins)
@@ -128,73 +152,38 @@ class Unwrapper:
                 if solution.map is not None and len(solution.used[name]):
                     excused.append(wanted[np.isin(wanted, mapper.mesh.vertices)])
         vertices.check_used(
-            [solution.used for solution in solutions if solution.map is not None],
+            [solution.used for _, solution in pairs if solution.map is not None],
             np.concatenate([np.empty(0, dtype=np.int64), *excused]),
         )
 
-    def _assembled(self, solutions: list[ChartSolution], where: PlaceOptions) -> Unwrapped:
+    def _assembled(self, solutions: ChartSolutions, where: PlaceOptions) -> Unwrapped:
         """Place the disks and gather the corners' coordinates."""
-        mapped = np.array([solution.map is not None for solution in solutions])
-        image_area = np.array([0.5 * np.abs(solution.signed).sum() for solution in solutions])
-        outlines = self._outlines(solutions)
-        found = iter(placements(where.place, where.margin, self._meshes.area[mapped], image_area[mapped], outlines))
-        placed = [next(found) if done else Placement() for done in mapped.tolist()]
-        surface, split = self._split.surface, self._split
+        surface, split, meshes = self._split.surface, self._split, self._meshes
+        mapped = solutions.mapped
+        found = placements(
+            where.place, where.margin, meshes.area[mapped], solutions.image_areas()[mapped], self._outlines(solutions)
+        )
+        placed = Placements.untouched(split.count)
+        placed.center[mapped], placed.scale[mapped] = found
+        own = np.flatnonzero(meshes.site[: meshes.first_vertex[-1]] < len(surface.vertex_of_site))
+        chart = meshes.chart_of_vertex[own]
         z: NDArray[np.complex128] = np.zeros(len(surface.vertex_of_site), dtype=np.complex128)
-        for number in np.flatnonzero(mapped).tolist():
-            own = slice(self._meshes.first_vertex[number], self._meshes.first_virtual[number])
-            z[self._meshes.site[own]] = _laid(solutions[number].z, placed[number])
+        z[meshes.site[own]] = placed.center[chart] + placed.scale[chart] * solutions.z[own]
         uv = np.zeros((self._corner_count, 2))
         uv[split.corner] = z[surface.site[: len(split.corner)]].view(np.float64).reshape(-1, 2)
         chart_of_face = np.full(self._face_count, -1, dtype=np.int64)
         chart_of_face[split.selected] = surface.chart[: surface.real]
         done = np.append(mapped, False)[chart_of_face]
-        return Unwrapped(uv, chart_of_face, done, self._charts(solutions, placed))
+        return Unwrapped(uv, chart_of_face, done, ChartList(split, meshes, solutions, placed))
 
-    def _outlines(self, solutions: list[ChartSolution]) -> list[Outline] | None:
+    def _outlines(self, solutions: ChartSolutions) -> list[Outline] | None:
         """Positions and triangles that cover each mapped chart, of disks the whole disk; None where all are disks."""
-        done = [(number, one) for number, one in enumerate(solutions) if one.map is not None]
-        if all(isinstance(one.map, DiskMap) for _, one in done):
+        if solutions.is_disk[solutions.mapped].all():
             return None
+        meshes, disk = self._meshes, unit_disk()
         return [
-            unit_disk() if isinstance(one.map, DiskMap) else (one.z, self._meshes[number].F.T) for number, one in done
+            disk
+            if solutions.is_disk[number]
+            else (solutions.z[meshes.first_vertex[number] : meshes.first_virtual[number]], meshes[number].F.T)
+            for number in np.flatnonzero(solutions.mapped).tolist()
         ]
-
-    def _charts(self, solutions: list[ChartSolution], placed: list[Placement]) -> list[Chart]:
-        split, meshes = self._split, self._meshes
-        faces = split.selected[np.argsort(split.surface.chart[: split.surface.real], kind="stable")]
-        first = np.concatenate(([0], np.cumsum(np.bincount(split.surface.chart[: split.surface.real]))))
-        charts = []
-        for number, solution in enumerate(solutions):
-            mesh = self._mappers[number].mesh
-            polygon = split.selected[meshes.polygon[meshes.first_face[number] : meshes.first_face[number + 1]]]
-            charts.append(
-                Chart(
-                    faces=faces[first[number] : first[number + 1]],
-                    error=solution.error,
-                    map=solution.map,
-                    vertices=mesh.vertices,
-                    F=mesh.F,
-                    polygon=polygon,
-                    corner=split.corner[mesh.corner],
-                    flipped=self._flipped(solution, mesh),
-                    notes=split.notes.get(number, []) + solution.notes,
-                    placement=placed[number],
-                    mesh=mesh,
-                )
-            )
-        return charts
-
-    def _flipped(self, solution: ChartSolution, mesh: ChartMesh) -> NDArray[np.int64]:
-        """The caller's polygons with an inverted or collapsed triangle among those that were solved on."""
-        if solution.map is None or not len(solution.map.flipped):
-            return np.empty(0, dtype=np.int64)
-        polygon = np.unique(mesh.solved_polygon[solution.map.flipped])
-        return self._split.selected[polygon[polygon < self._split.surface.real]]
-
-
-def _laid(z: NDArray[np.complex128], placement: Placement) -> NDArray[np.complex128]:
-    """Positions put in their place; untouched where there is nothing to do."""
-    if placement == Placement():
-        return z
-    return complex(*placement.center) + placement.scale * z

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..options import Shape, Upright
 
-__all__ = ["upright_turn"]
+__all__ = ["upright_turn", "upright_turns"]
 
 Real = NDArray[np.float64]
 Ints = NDArray[np.integer]
@@ -40,39 +40,74 @@ def upright_turn(V: Real, F: Ints, z: Complex, loop: Ints, shape: Shape, upright
     """
     if upright is Upright.NONE:
         return 1.0
-    up, beyond = (np.array(axis) for axis in AXES[upright])
-    V = V - V[0]
-    V = V / (np.abs(V).max() or 1.0)  # squares of what is very large or very small would be lost
-    rise = _mean_rise(V, F, z, up)
-    flat = abs(rise) < FLAT
-    if flat:
-        rise = _mean_rise(V, F, z, beyond)
-    turn = complex(1j * np.conj(rise) / abs(rise)) if abs(rise) >= FLAT else complex(1.0)
+    whole = np.zeros(len(F), dtype=np.int64)
+    (turn,), (flat,) = _turns_and_flats(V - V[0], F, z, whole, np.ones(1) * np.abs(V - V[0]).max(), upright)
     if shape is Shape.RECTANGLE:
         return _nearest_quarter(turn, 1.0)
-    if shape is Shape.FREE and (flat or abs(rise) < FLAT):
+    if shape is Shape.FREE and flat:
         sides = _straight_sides(z[loop[loop < len(z)]])
         return turn if sides is None else _nearest_quarter(turn, sides)
     return turn
 
 
-def _mean_rise(V: Real, F: Ints, z: Complex, axis: Real) -> complex:
-    """Where the surface rises along an axis, as seen in the plane: its slope's sine, the mean over the area.
+def upright_turns(V: Real, F: Ints, z: Complex, first_vertex: Ints, chart: Ints, upright: Upright) -> Complex:
+    """The same for c disks one after another, (c,).
+
+    Parameters
+    ----------
+    V, F, z
+        Of all of them; F numbers all vertices.
+    first_vertex : (c,) integers
+        The first vertex of each disk.
+    chart : (m,) integers
+        The disk of each face.
+    """
+    if upright is Upright.NONE:
+        return np.ones(len(first_vertex), dtype=np.complex128)
+    count = np.diff(np.append(first_vertex, len(V)))
+    V = V - np.repeat(V[first_vertex], count, axis=0)
+    turn, _ = _turns_and_flats(V, F, z, chart, np.maximum.reduceat(np.abs(V).max(axis=1), first_vertex), upright)
+    return turn
+
+
+def _turns_and_flats(
+    V: Real, F: Ints, z: Complex, chart: Ints, size: Real, upright: Upright
+) -> tuple[Complex, NDArray[np.bool_]]:
+    """What to multiply the charts' positions by, (c,), and which of them lie flat along an axis.
+
+    `chart` (m,) is that of each face, `size` (c,) its largest coordinate.
+    """
+    up, beyond = (np.array(axis) for axis in AXES[upright])
+    size = np.where(size > 0.0, size, 1.0)[chart]  # squares of what is very large or very small would be lost
+    a, b, c = (V[corner] for corner in F.T)
+    sides = (b - a) / size[:, None], (c - a) / size[:, None]
+    image = z[F[:, 1]] - z[F[:, 0]], z[F[:, 2]] - z[F[:, 0]]
+    rise = _mean_rises(sides, image, chart, up)
+    flat = np.abs(rise) < FLAT
+    if flat.any():
+        rise = np.where(flat, _mean_rises(sides, image, chart, beyond), rise)
+    length = np.abs(rise)
+    steep = length >= FLAT
+    turn = np.where(steep, 1j * np.conj(rise) / np.where(steep, length, 1.0), 1.0)
+    return turn, flat | ~steep
+
+
+def _mean_rises(sides: tuple[Real, Real], image: tuple[Complex, Complex], chart: Ints, axis: Real) -> Complex:
+    """Where charts rise along an axis, as seen in the plane: the slope's sine, the mean over the area, (c,).
 
     The sine is the surface's, only the direction the image's: in a face that the map squeezes to nothing the gradient
     in the plane is as long as one likes.
     """
-    a, b, c = (V[corner] for corner in F.T)
-    first, second = b - a, c - a
+    (first, second), (q1, q2) = sides, image
     normal = np.cross(first, second)
-    total = float(np.linalg.norm(normal, axis=1).sum())
-    if not total > 0.0:
-        return 0.0
-    q1, q2 = z[F[:, 1]] - z[F[:, 0]], z[F[:, 2]] - z[F[:, 0]]
+    total = np.bincount(chart, np.linalg.norm(normal, axis=1))
     upward = -1j * ((first @ axis) * q2 - (second @ axis) * q1)  # the gradient over the image's double area
-    counted = (q1.real * q2.imag - q1.imag * q2.real > 0.0) & (np.abs(upward) > 0.0)
+    length = np.abs(upward)
+    counted = (q1.real * q2.imag - q1.imag * q2.real > 0.0) & (length > 0.0)
     slope = np.linalg.norm(np.cross(normal, axis), axis=1)
-    return complex((slope[counted] * upward[counted] / np.abs(upward[counted])).sum() / total)
+    part = np.divide(slope * upward, length, out=np.zeros(len(chart), dtype=np.complex128), where=counted)
+    rise = np.bincount(chart, part.real) + 1j * np.bincount(chart, part.imag)
+    return np.divide(rise, total, out=np.zeros(len(total), dtype=np.complex128), where=total > 0.0)
 
 
 def _straight_sides(boundary: Complex) -> complex | None:

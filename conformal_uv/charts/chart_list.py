@@ -1,0 +1,133 @@
+"""All charts of an unwrapped mesh, each of them made when it is looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.arrays import squared_units
+from ..mesh.geometry import triangle_geometry
+from ..operators.distortion import RATIOS, Distortion, distortion_of
+from ..operators.wirtinger import planar_sides, signed_double_areas
+from .chart import Chart
+from .chart_mapper import ShapeMap
+from .chart_meshes import ChartMesh, ChartMeshes
+from .chart_solutions import ChartSolutions
+from .packing import Placements
+from .splitting import Split
+
+__all__ = ["ChartList"]
+
+Ints = NDArray[np.int64]
+
+
+class ChartList(Sequence[Chart]):
+    """The charts in the order of their first polygons; what concerns all of them is answered without making any.
+
+    Attributes
+    ----------
+    mapped : (c,) bool
+        Which charts have a map.
+    errors : dict of int to ConformalUVError
+        Why the others have none.
+    solutions : ChartSolutions
+    meshes : ChartMeshes
+    """
+
+    def __init__(self, split: Split, meshes: ChartMeshes, solutions: ChartSolutions, placed: Placements) -> None:
+        self._split, self.meshes, self.solutions, self._placed = split, meshes, solutions, placed
+        self.mapped, self.errors = solutions.mapped, solutions.errors
+        chart_of_polygon = split.surface.chart[: split.surface.real]
+        self._faces = split.selected[np.argsort(chart_of_polygon, kind="stable")]
+        self._first = np.concatenate(([0], np.cumsum(np.bincount(chart_of_polygon, minlength=split.count))))
+        self._made: dict[int, Chart] = {}
+
+    def __len__(self) -> int:
+        return self._split.count
+
+    @overload
+    def __getitem__(self, index: int) -> Chart: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Chart]: ...
+    def __getitem__(self, index: int | slice) -> Chart | list[Chart]:
+        if isinstance(index, slice):
+            return [self[number] for number in range(*index.indices(len(self)))]
+        number = range(len(self))[index]
+        if number not in self._made:
+            self._made[number] = self._chart(number)
+        return self._made[number]
+
+    @property
+    def chart_of_triangle(self) -> Ints:
+        """The chart of each triangle of all charts, (m,)."""
+        return self.meshes.chart_of_face
+
+    @cached_property
+    def corner(self) -> Ints:
+        """The caller's polygon corner at each corner of these, (m, 3)."""
+        return self._split.corner[self.meshes.corner]
+
+    def surface_areas(self) -> NDArray[np.float64]:
+        """Area of each chart, (c,), in the units of the positions squared; infinite where doubles end."""
+        return squared_units(self.meshes.area, self.meshes.unit)
+
+    def image_areas(self, uv: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Area of each chart's triangles, (c,), at coordinates (k, 2) of every polygon corner."""
+        z = np.ascontiguousarray(uv, dtype=np.float64).view(np.complex128).reshape(-1)
+        signed = signed_double_areas(planar_sides(z, self.corner.T.astype(np.int32)))
+        return 0.5 * np.bincount(self.chart_of_triangle, np.abs(signed), minlength=len(self))
+
+    def distortion(self, taken: NDArray[np.bool_]) -> tuple[Distortion, NDArray[np.int64]]:
+        """Distortion of the maps of some charts (c,), each in its own plane, on their triangles, and which these are.
+
+        Angles and ratios are those of `Chart.distortion`, area scales those of `ChartSolutions.z`.
+        """
+        own = np.flatnonzero(taken[self.chart_of_triangle])
+        chart = self.chart_of_triangle[own]
+        V, unit = self.meshes.scaled_vertices(taken)
+        corners = np.ascontiguousarray(self.meshes.F_of_all[own].T.astype(np.int32))
+        z = self.solutions.z.view(np.float64).reshape(-1, 2)
+        found = distortion_of(triangle_geometry(V, corners), corners, z)
+        with np.errstate(over="ignore", under="ignore"):
+            ratio = np.clip(unit, *RATIOS)[chart]
+            return replace(found, area_scale=found.area_scale / ratio / ratio), own
+
+    def flipped(self, numbers: Ints) -> Ints:
+        """The caller's polygons with a folded triangle, of some charts one after the other; see `Chart`."""
+        folded = self.solutions.folded
+        return np.concatenate([np.empty(0, dtype=np.int64), *(self[k].flipped for k in numbers if folded[k])])
+
+    @property
+    def placed(self) -> Placements:
+        """Places of the charts, (c,)."""
+        return self._placed
+
+    def _chart(self, number: int) -> Chart:
+        split, meshes, mesh = self._split, self.meshes, self.meshes[number]
+        found = self.solutions.map(number)
+        polygon = meshes.polygon[meshes.first_face[number] : meshes.first_face[number + 1]]
+        return Chart(
+            faces=self._faces[self._first[number] : self._first[number + 1]],
+            error=self.errors.get(number),
+            map=found,
+            vertices=mesh.vertices,
+            F=mesh.F,
+            polygon=split.selected[polygon],
+            corner=split.corner[mesh.corner],
+            flipped=self._flipped(found, mesh),
+            notes=split.notes.get(number, []) + self.solutions.notes(number),
+            placement=self._placed.of(number),
+            mesh=mesh,
+        )
+
+    def _flipped(self, found: ShapeMap | None, mesh: ChartMesh) -> Ints:
+        """The caller's polygons with an inverted or collapsed triangle among those that were solved on."""
+        if found is None or not len(found.flipped):
+            return np.empty(0, dtype=np.int64)
+        polygon = np.unique(mesh.solved_polygon[found.flipped])
+        return self._split.selected[polygon[polygon < self._split.surface.real]]
