@@ -17,6 +17,7 @@ __all__ = ["Cholmod", "SuperLU"]
 FAILURES = (ArithmeticError, MemoryError, RuntimeError, TypeError, ValueError)  # what the libraries raise
 KEEP_ORDER = {"nmethods": 1}  # the given order, without trying others
 MANY = 20_000  # unknowns, from which on sparse right-hand sides are the faster ones
+SPARSE = 0.125  # of the unknowns, up to which a right-hand side is sparse
 
 
 class Cholmod:
@@ -61,9 +62,10 @@ class Cholmod:
         """CHOLMOD takes the columns of a sparse right-hand side together, dense ones one after the other.
 
         That pays for many unknowns. For few it does not, and cvxopt's spsolve (1.3.3) loses some bytes at every call.
+        It takes the rows one by one, and is slow where a good part of them has a value.
         """
         n, k = self._n, values.shape[1]
-        if n < MANY:
+        if n < MANY or len(rows) > SPARSE * n:
             rhs = np.zeros((n, k))
             rhs[rows] = values
             return self.solve(rhs)
