@@ -101,6 +101,13 @@ class EnergyRows:
         self.value = 0.5 * self._radial.sum(axis=1) - 0.5 * self._sine.sum(axis=1)
         self.gradient: Real = turned.imag - 0.5 * (np.roll(cosine, 1, axis=1) - cosine)
 
+    def some(self, kept: NDArray[np.bool_]) -> EnergyRows:
+        """Some of the disks."""
+        part = EnergyRows.__new__(EnergyRows)
+        for name, values in vars(self).items():
+            setattr(part, name, values[kept])
+        return part
+
     def hessian(self) -> Real:
         """(r, nb, nb)."""
         _, nb = self.theta.shape

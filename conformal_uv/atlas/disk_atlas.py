@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..disk import DiskMap
 from ..disk.auto import GOOD
+from ..disk.placement import inside_disk
 from ..disk.relative_energy import FEW
 from ..operators.dirichlet import DirichletProblem
 from ..optimize.choice import ALIKE
@@ -15,15 +18,16 @@ from ..progress import Progress
 from .atlas_maps import AtlasMaps
 from .block_laplacian import block_laplacian
 from .disks import Disks
-from .finish import Turns, angle_means, placed, plain_maps
+from .finish import angle_means, placed, plain_maps
 from .measures import Measures, measures
 from .solutions import NewtonSolver, linear_positions
 
-__all__ = ["DiskAtlas", "takes"]
+__all__ = ["DiskAtlas", "Turns", "takes"]
 
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 Complex = NDArray[np.complex128]
+Turns = Callable[[Complex], Complex]
 
 def takes(options: DiskOptions) -> bool:
     """Whether disks are mapped together with these options; others want to see each disk."""
@@ -105,11 +109,15 @@ class DiskAtlas:
     ) -> tuple[Complex, Bools]:
         """Positions of the better solutions, and which disks have Newton's; what is not plain is struck from `good`."""
         disks = self.disks
-        candidates = [placed(disks, z, turns) for z in (linear, newton) if z is not None]
+        candidates = [placed(disks, z) for z in (linear, newton) if z is not None]
         for z in candidates:
             good &= plain_maps(disks, z)
-        if len(candidates) == 1:
-            return candidates[0], np.full(len(disks), newton is not None)
-        before, after = (angle_means(disks, z) for z in candidates)
-        by_newton = before > after + ALIKE
-        return np.where(by_newton[disks.of_vertex], candidates[1], candidates[0]), by_newton
+        by_newton = np.full(len(disks), newton is not None)
+        if len(candidates) == 2:
+            before, after = (angle_means(disks, z) for z in candidates)
+            by_newton = before > after + ALIKE
+        z = np.where(by_newton[disks.of_vertex], candidates[-1], candidates[0])
+        if turns is not None:
+            z = inside_disk(z * turns(z)[disks.of_vertex])
+            good &= plain_maps(disks, z)
+        return z, by_newton

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,18 +17,17 @@ __all__ = ["angle_means", "placed", "plain_maps"]
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-Turns = Callable[[Complex], Complex]
 
 
-def placed(disks: Disks, z: Complex, turns: Turns | None) -> Complex:
-    """Positions (n,) with the first boundary vertex of every disk at 1, then turned by what `turns` says (c,)."""
+def placed(disks: Disks, z: Complex) -> Complex:
+    """Positions (n,) with the first boundary vertex of every disk at 1."""
     first = disks.loop[disks.first_boundary[:-1]]
     turn = np.conj(z[first])
     z = z * (turn / np.abs(turn))[disks.of_vertex]
     z[disks.loop] /= np.abs(z[disks.loop])
     z = inside_disk(z)
     z[first] = 1.0
-    return z if turns is None else inside_disk(z * turns(z)[disks.of_vertex])
+    return z
 
 
 def plain_maps(disks: Disks, z: Complex) -> Bools:

@@ -85,10 +85,9 @@ def minimised_rows(
     norm, first = np.full(len(theta), np.nan), np.full(len(theta), np.nan)
     converged = np.zeros(len(theta), dtype=bool)
     steps: list[Step] = []
-    left = np.arange(len(theta))
+    left = np.flatnonzero(_apart(theta))
+    here = _Place(problem.some(left), theta[left])
     for number in range(max_iterations + 1):
-        left = left[(_gaps(theta[left]) >= SMALLEST_GAP).all(axis=1)]
-        here = _Place(problem.some(left), theta[left])
         norm[left] = here.norm
         if number == 0:
             first[left] = here.norm
@@ -102,9 +101,10 @@ def minimised_rows(
         left, here, direction = left[sound], here.some(sound), direction[sound]
         length, there = _line_search(here, direction)
         taken = length > 0.0
-        left = left[taken]
-        theta[left] = there[taken]
-        steps.append(Step(left, here.energy.value[taken], here.norm[taken], length[taken]))
+        steps.append(Step(left[taken], here.energy.value[taken], here.norm[taken], length[taken]))
+        theta[left[taken]] = there.energy.theta[taken]
+        taken &= _apart(there.energy.theta)
+        left, here = left[taken], there.some(taken)
     return NewtonRows(theta, converged, norm, first, steps)
 
 
@@ -147,11 +147,18 @@ class _Place:
     def __init__(self, problem: _Problem, theta: Real) -> None:
         self.problem, self.energy = problem, EnergyRows(problem.S, theta)
         self._basis, self._size = np.linalg.qr(problem.normals(self.energy.z))
-        self.norm: Real = np.linalg.norm(self._projected(self.energy.gradient), axis=1)
+        self._gradient = self._projected(self.energy.gradient)
+        self.norm: Real = np.linalg.norm(self._gradient, axis=1)
 
     def some(self, kept: Bools) -> _Place:
         """Some of the rows."""
-        return self if kept.all() else _Place(self.problem.some(kept), self.energy.theta[kept])
+        if kept.all():
+            return self
+        part = _Place.__new__(_Place)
+        part.problem, part.energy = self.problem.some(kept), self.energy.some(kept)
+        part._basis, part._size = self._basis[kept], self._size[kept]
+        part._gradient, part.norm = self._gradient[kept], self.norm[kept]
+        return part
 
     def _projected(self, direction: Real) -> Real:
         along = np.einsum("rkc,rk->rc", self._basis, direction)
@@ -174,8 +181,7 @@ class _Place:
         except np.linalg.LinAlgError:
             sound &= np.linalg.eigvalsh(H)[:, 0] > 0.0
             H[~sound] = np.eye(H.shape[1])
-        gradient = self._projected(self.energy.gradient)
-        return self._projected(np.linalg.solve(H, -gradient[:, :, None])[:, :, 0]), sound
+        return self._projected(np.linalg.solve(H, -self._gradient[:, :, None])[:, :, 0]), sound
 
     def _bend(self, sound: Bools) -> Real:
         """As `disk.gauge.CentreGauge.curvature`."""
@@ -186,8 +192,8 @@ class _Place:
         return np.asarray(self.problem.measure * (multiplier[:, 1] * z.imag - multiplier[:, 2] * z.real))
 
 
-def _line_search(here: _Place, direction: Real) -> tuple[Real, Real]:
-    """Parts (r,) of the directions, 0 where no step does, and the angles there; as `optimize.line_search`."""
+def _line_search(here: _Place, direction: Real) -> tuple[Real, _Place]:
+    """Parts (r,) of the directions, 0 where no step does, and where they lead; as `optimize.line_search`."""
     value, slope = here.energy.value, np.einsum("rk,rk->r", here.energy.gradient, direction)
     noise = EPS * (64.0 * (np.abs(value) + np.pi) + 4.0 * here.problem.degrees)
     taken, theta = np.zeros(len(slope)), here.energy.theta.copy()
@@ -198,11 +204,18 @@ def _line_search(here: _Place, direction: Real) -> tuple[Real, Real]:
         change = there.energy.value - value[left]
         falls = (change <= SUFFICIENT_DECREASE * length * slope[left]) & (change < -noise[left])
         falls |= (np.abs(change) <= noise[left]) & (there.norm < here.norm[left])
+        if falls.all() and len(left) == len(taken):
+            return np.ones(len(left)), there
         taken[left[falls]], theta[left[falls]] = length, there.energy.theta[falls]
         left, length = left[~falls], 0.5 * length
         if not len(left):
             break
-    return taken, theta
+    return taken, _Place(here.problem, theta)
+
+
+def _apart(theta: Real) -> Bools:
+    """Whether no two neighbours have come together, (r,)."""
+    return np.asarray((_gaps(theta) >= SMALLEST_GAP).all(axis=1))
 
 
 def _gaps(theta: Real) -> Real:
