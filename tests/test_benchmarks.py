@@ -186,20 +186,53 @@ def test_power_of_growth():
     assert without.measured is None and without.verdict == "not measured"
 
 
+def checked(measured: list) -> dict:
+    """What must hold, by its claim."""
+    found = module("ratios").checks(measured)
+    claims = {check.claim: check for check in found}
+    assert len(claims) == len(found)
+    return claims
+
+
 def test_ratios_of_medians_and_bounds():
-    measured = [row_of("linear-cholmod", 1_000_000, seconds) for seconds in (5.0, 6.0, 90.0)]
-    measured += [row_of("limit-cholmod", 1_000_000, 5.0, peak=5 * 10**8)]
-    measured += [row_of("libigl-harmonic", 1_000_000, 15.0)]
+    measured = [row_of("linear-cholmod", 1_000_000, s, repeat=k) for k, s in enumerate((5.0, 6.0, 90.0))]
+    measured += [row_of("limit-cholmod", 1_000_000, 9.0, peak=5 * 10**8)]
+    measured += [row_of("limit-cholmod-ordered", 1_000_000, s, repeat=k) for k, s in enumerate((4.0, 5.0, 50.0))]
+    measured += [row_of("libigl-harmonic", 1_000_000, 15.0), row_of("filter", 1_000_000, 20.0)]
     measured += [row_of("meshlab-harmonic", 1_000_000, 0.0, status="over", note="over 300 s", calls=[])]
-    found = {check.claim: check for check in module("ratios").checks(measured)}
-    time = found["linear-cholmod / limit-cholmod, time, 1M"]
-    assert time.measured == pytest.approx(1.2) and time.verdict == "pass"
-    memory = found["linear-cholmod / limit-cholmod, memory, 1M"]
+    found = checked(measured)
+    time = found["linear-cholmod / limit, terrain 1M, time"]
+    assert time.measured == pytest.approx(1.2) and time.verdict == "pass"  # of the cheaper limit
+    assert time.span == pytest.approx((1.2, 1.8)) and time.goal == 1.3
+    memory = found["linear-cholmod / limit, terrain 1M, memory"]
     assert memory.measured == pytest.approx(2.0) and memory.verdict == "miss"
-    peer = found["libigl-harmonic / linear-cholmod, time, 1M"]
+    peer = found["libigl-harmonic / linear-cholmod, terrain 1M"]
     assert peer.measured == pytest.approx(2.5) and peer.verdict == "miss"
-    slow = found["meshlab-harmonic / linear-cholmod, time, 1M"]
-    assert slow.measured == pytest.approx(50.0) and slow.bound and slow.verdict == "pass"
+    slow = found["meshlab-harmonic / filter, terrain 1M"]
+    assert slow.measured == pytest.approx(15.0) and slow.bound and slow.verdict == "pass"
+    assert found["linear-cholmod / limit, irregular 1M, time"].verdict == "not measured"
+    assert not any("david" in claim for claim in found)
+    scan = [row_of(name, 170_000, 3.0, mesh="david-open") for name in ("linear-cholmod", "limit-cholmod")]
+    assert checked(scan)["linear-cholmod / limit, david-open 170k, time"].measured == pytest.approx(1.0)
+
+
+def test_ratios_of_atlases_files_and_blender():
+    unwraps = {"blender-ours-auto": 3.0, "blender-angle": 5.0, "blender-conformal": 2.0}
+    measured = [row_of(n, 10_000, 9.0, mesh="islands-4", stages={"unwrap": s}) for n, s in unwraps.items()]
+    measured += [row_of("atlas-linear", size, size / 2e3, mesh="triangles") for size in (10_000, 100_000)]
+    stages = {"read": 1.0, "checks": 0.5, "linear": 1.5, "distortion": 7.0, "write": 3.0, "numbers": 7.0}
+    measured += [row_of("command", 1_000_000, 20.0, mesh="files", stages=stages)]
+    measured += [row_of(f"{p}-read-obj", 1_000_000, s, mesh="files") for p, s in (("libigl", 2.0), ("meshio", 8.0))]
+    measured += [row_of("read-obj", 1_000_000, 1.0, mesh="files"), row_of("read-ply", 1_000_000, 0.2, mesh="files")]
+    found = checked(measured)
+    for claim, value in (
+        ("10k islands-4, in Blender, default / the faster built-in", 1.5),
+        ("triangles, linear, 100k / ten times 10k", 1.0),
+        ("command, reading + writing / the map, 1M OBJ", 2.0),
+        ("reading an OBJ / the fastest peer, 1M", 0.5),
+        ("reading a binary PLY, 1M", 0.2),
+    ):
+        assert found[claim].measured == pytest.approx(value), claim
 
 
 def test_quality_of_known_maps():
