@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from meshes_closed import icosphere
 
+import conformal_uv as cuv
 from conformal_uv.samples import flat_disk, terrain
 
 REPOSITORY = Path(__file__).resolve().parent.parent
@@ -97,18 +98,35 @@ def test_resume_runs_nothing_again_and_a_second_start_refuses(results: Path):
 
 
 def test_those_who_fail_say_why_and_stop_nobody(tmp_path: Path):
-    V, F = icosphere(2)  # closed: no disk
-    lines = [f"v {x} {y} {z}" for x, y, z in V] + [f"f {a} {b} {c}" for a, b, c in F + 1]
-    (tmp_path / "closed.obj").write_text("\n".join(lines))
+    V, F = icosphere(2)
+    F = F[~np.isin(F, [0, F[-1, 0]]).any(axis=1)]  # without two stars: an annulus, no disk
+    write_obj(tmp_path / "ring.obj", V, F)
     names = ("linear-superlu", "limit-superlu", "blender-conformal")
-    options = ("--face", tmp_path / "closed.obj", "--sizes", 200, "--blender-python", tmp_path / "no-python")
-    run("--meshes", "face", *options, "--contestants", *names, "--out", tmp_path / "out")
+    options = ("--scans", tmp_path / "ring.obj", "--sizes", 200, "--blender-python", tmp_path / "no-python")
+    run("--meshes", "ring", *options, "--contestants", *names, "--repeats", 1, "--out", tmp_path / "out")
     found = rows(tmp_path / "out")
     assert [found[name]["status"] for name in names] == ["failed"] * 3
-    assert "TopologyError: The surface is closed" in found["linear-superlu"]["note"]
-    assert "The surface is closed" in found["limit-superlu"]["note"]
+    assert "TopologyError: " in found["linear-superlu"]["note"]
+    assert "boundary" in found["limit-superlu"]["note"]
     assert "no-python" in found["blender-conformal"]["note"]
     assert "TopologyError" in (tmp_path / "out" / "tables.md").read_text()
+
+
+def write_obj(path: Path, V: np.ndarray, F: np.ndarray) -> None:
+    module("files").write_obj(path, V, F)
+
+
+def test_a_closed_scan_is_a_sphere_and_opened_a_disk(tmp_path: Path):
+    V, F = icosphere(2)
+    write_obj(tmp_path / "ball.obj", V, F)
+    closed = {f.name: f for f in module("families").scans(tmp_path / "ball.obj", 700)}
+    assert {name: (f.kind, f.sizes) for name, f in closed.items()} == {
+        "ball-open": ("disk", (161, 636)),
+        "ball": ("closed", (162, 642)),
+    }
+    for family in closed.values():
+        found, faces = module("meshes").made(family.name, family.sizes[1], family.file)
+        assert len(found) == family.sizes[1] and euler(faces) == (2 if family.kind == "closed" else 1)
 
 
 def test_time_limit_ends_a_process_and_skips_larger_meshes(tmp_path: Path):
@@ -122,25 +140,40 @@ def test_time_limit_ends_a_process_and_skips_larger_meshes(tmp_path: Path):
 
 
 def test_peers_run_or_are_not_installed(tmp_path: Path):
-    peers = {"libigl-lscm": "igl", "bff": "confmap.confmap"}
+    peers = {"libigl-lscm": "igl", "meshlab-lscm": "pymeshlab"}
     run("--meshes", "terrain", "--sizes", 400, "--repeats", 1, "--contestants", *peers, "--out", tmp_path)
     for name, package in peers.items():
-        try:
-            there = importlib.util.find_spec(package) is not None
-        except ModuleNotFoundError:
-            there = False
         row = rows(tmp_path)[name]
-        if there:
+        if importlib.util.find_spec(package) is not None:
             assert row["status"] == "ok" and row["quality"]["flips"] == 0 and row["quality"]["angle_mean"] < 5.0
         else:
             assert row["status"] == "not installed" and row["note"].startswith("not installed (")
 
 
-def row_of(contestant: str, size: int, seconds: float, **told: object):
+def test_atlases_fans_and_files(tmp_path: Path):
+    names = ["atlas-linear", "one-disk", "linear-superlu", "command", "read-obj", "read-ply", "meshio-read-ply"]
+    meshes = ("islands-4", "triangles", "fan", "files")
+    options = ("--sizes", 25, "--repeats", 1, "--calls", 1, "--out", tmp_path)
+    run("--meshes", *meshes, "--contestants", *names, *options)
+    found = [json.loads(line) for line in (tmp_path / "rows.jsonl").read_text().splitlines()]
+    assert {(row["mesh"], row["contestant"]): row["n"] for row in found} == {
+        ("islands-4", "atlas-linear"): 100,
+        ("islands-4", "one-disk"): 100,
+        ("triangles", "atlas-linear"): 75,
+        ("fan", "one-disk"): 25,
+        **{("files", name): 25 for name in names[3:]},
+    }
+    assert all(row["status"] == "ok" and row["note"] == "" for row in found)
+    command = next(row for row in found if row["contestant"] == "command")
+    assert {"read", "write", "factorization"} <= set(command["calls"][0]["stages"])
+    assert "| islands" not in (tmp_path / "tables.md").read_text() and not list(tmp_path.glob("*.png"))
+
+
+def row_of(contestant: str, size: int, seconds: float, mesh: str = "terrain", repeat: int = 0, **told: object):
     """A row as a process would have told it."""
-    calls = [{"seconds": seconds, "cpu": seconds, "stages": {}}]
+    calls = [{"seconds": seconds, "cpu": seconds, "system": 0.0, "stages": told.pop("stages", {})}]
     given = {"status": "ok", "calls": calls, "peak": 10**9, **told}
-    return module("rows").Row("terrain", size, size, 2 * size, contestant, 0, **given)
+    return module("rows").Row(mesh, size, size, 2 * size, contestant, repeat, **given)
 
 
 def test_power_of_growth():
@@ -153,20 +186,53 @@ def test_power_of_growth():
     assert without.measured is None and without.verdict == "not measured"
 
 
+def checked(measured: list) -> dict:
+    """What must hold, by its claim."""
+    found = module("ratios").checks(measured)
+    claims = {check.claim: check for check in found}
+    assert len(claims) == len(found)
+    return claims
+
+
 def test_ratios_of_medians_and_bounds():
-    measured = [row_of("linear-cholmod", 1_000_000, seconds) for seconds in (5.0, 6.0, 90.0)]
-    measured += [row_of("limit-cholmod", 1_000_000, 5.0, peak=5 * 10**8)]
-    measured += [row_of("libigl-harmonic", 1_000_000, 15.0)]
+    measured = [row_of("linear-cholmod", 1_000_000, s, repeat=k) for k, s in enumerate((5.0, 6.0, 90.0))]
+    measured += [row_of("limit-cholmod", 1_000_000, 9.0, peak=5 * 10**8)]
+    measured += [row_of("limit-cholmod-ordered", 1_000_000, s, repeat=k) for k, s in enumerate((4.0, 5.0, 50.0))]
+    measured += [row_of("libigl-harmonic", 1_000_000, 15.0), row_of("filter", 1_000_000, 20.0)]
     measured += [row_of("meshlab-harmonic", 1_000_000, 0.0, status="over", note="over 300 s", calls=[])]
-    found = {check.claim: check for check in module("ratios").checks(measured)}
-    time = found["linear-cholmod / limit-cholmod, time, 1M"]
-    assert time.measured == pytest.approx(1.2) and time.verdict == "pass"
-    memory = found["linear-cholmod / limit-cholmod, memory, 1M"]
+    found = checked(measured)
+    time = found["linear-cholmod / limit, terrain 1M, time"]
+    assert time.measured == pytest.approx(1.2) and time.verdict == "pass"  # of the cheaper limit
+    assert time.span == pytest.approx((1.2, 1.8)) and time.goal == 1.3
+    memory = found["linear-cholmod / limit, terrain 1M, memory"]
     assert memory.measured == pytest.approx(2.0) and memory.verdict == "miss"
-    peer = found["libigl-harmonic / linear-cholmod, time, 1M"]
+    peer = found["libigl-harmonic / linear-cholmod, terrain 1M"]
     assert peer.measured == pytest.approx(2.5) and peer.verdict == "miss"
-    slow = found["meshlab-harmonic / linear-cholmod, time, 1M"]
-    assert slow.measured == pytest.approx(50.0) and slow.bound and slow.verdict == "pass"
+    slow = found["meshlab-harmonic / filter, terrain 1M"]
+    assert slow.measured == pytest.approx(15.0) and slow.bound and slow.verdict == "pass"
+    assert found["linear-cholmod / limit, irregular 1M, time"].verdict == "not measured"
+    assert not any("david" in claim for claim in found)
+    scan = [row_of(name, 170_000, 3.0, mesh="david-open") for name in ("linear-cholmod", "limit-cholmod")]
+    assert checked(scan)["linear-cholmod / limit, david-open 170k, time"].measured == pytest.approx(1.0)
+
+
+def test_ratios_of_atlases_files_and_blender():
+    unwraps = {"blender-ours-auto": 3.0, "blender-angle": 5.0, "blender-conformal": 2.0}
+    measured = [row_of(n, 10_000, 9.0, mesh="islands-4", stages={"unwrap": s}) for n, s in unwraps.items()]
+    measured += [row_of("atlas-linear", size, size / 2e3, mesh="triangles") for size in (10_000, 100_000)]
+    stages = {"read": 1.0, "checks": 0.5, "linear": 1.5, "distortion": 7.0, "write": 3.0, "numbers": 7.0}
+    measured += [row_of("command", 1_000_000, 20.0, mesh="files", stages=stages)]
+    measured += [row_of(f"{p}-read-obj", 1_000_000, s, mesh="files") for p, s in (("libigl", 2.0), ("meshio", 8.0))]
+    measured += [row_of("read-obj", 1_000_000, 1.0, mesh="files"), row_of("read-ply", 1_000_000, 0.2, mesh="files")]
+    found = checked(measured)
+    for claim, value in (
+        ("10k islands-4, in Blender, default / the faster built-in", 1.5),
+        ("triangles, linear, 100k / ten times 10k", 1.0),
+        ("command, reading + writing / the map, 1M OBJ", 2.0),
+        ("reading an OBJ / the fastest peer, 1M", 0.5),
+        ("reading a binary PLY, 1M", 0.2),
+    ):
+        assert found[claim].measured == pytest.approx(value), claim
 
 
 def test_quality_of_known_maps():
@@ -195,6 +261,29 @@ def test_subdivision_keeps_the_surface():
         return 0.5 * np.linalg.norm(np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), axis=1).sum()
 
     assert area(finer, faces) == pytest.approx(area(V, F), rel=1e-13)
-    # Euler: a disk stays a disk.
-    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    assert len(finer) - len(np.unique(sides, axis=0)) + len(faces) == 1
+    assert euler(faces) == 1  # a disk stays a disk
+
+
+def euler(F: np.ndarray) -> int:
+    """Vertices less edges plus faces."""
+    sides = np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
+    return len(np.unique(F)) - len(np.unique(sides, axis=0)) + len(F)
+
+
+def test_the_irregular_terrain_is_a_disk_with_negative_weights():
+    V, F = module("meshes").made("irregular", 4000)
+    weights = cuv.cotangent_laplacian(V, F).tocoo()
+    edges = weights.row < weights.col
+    assert euler(F) == 1 and len(np.unique(F)) == len(V) == 4000
+    assert (weights.data[edges] > 0).mean() == pytest.approx(0.17, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("family", "count", "corners"), [("islands-4", 4, 4), ("islands-25", 25, 4), ("triangles", 3, 3)]
+)
+def test_islands_are_apart_and_no_two_alike(family: str, count: int, corners: int):
+    V, F = module("meshes").made(family, 30)
+    assert len(V) == 30 * count and F.shape[1] == corners
+    assert len(cuv.unwrap(V, F, method="linear").charts) == 30
+    shapes = V.reshape(30, count, 3) - V.reshape(30, count, 3)[:, :1]
+    assert len(np.unique(shapes.reshape(30, -1).round(9), axis=0)) == 30

@@ -1,7 +1,8 @@
 """Measure, print and save the tables: ``python -m benchmarks.speed`` from the repository root.
 
-    python -m pip install libigl pymeshlab lapy matplotlib
-    python -m benchmarks.speed --sizes 1000 10000 --contestants ours limit
+    python -m pip install libigl pymeshlab lapy trimesh meshio matplotlib
+    python -m benchmarks.speed --scans david.obj human_face.obj --blender-python PATH
+    python -m benchmarks.speed --meshes terrain irregular --sizes 1000 10000 --contestants ours limit
 
 Rows are added to rows.jsonl in the output folder as they come; tables.md and the plots are made of them at the end.
 """
@@ -9,6 +10,7 @@ Rows are added to rows.jsonl in the output folder as they come; tables.md and th
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib.metadata
 import importlib.util
 import os
@@ -18,13 +20,12 @@ import tempfile
 from pathlib import Path
 
 from .contestants import CONTESTANTS, named
+from .families import FAMILIES, chosen
 from .rows import Row, read_rows
 from .runner import Plan, Runner
 from .table import markdown, seconds
 
-SIZES = [1_000, 10_000, 100_000, 262_144, 1_000_000, 2_300_000, 4_000_000]
-CLOSED_SIZES = [1_000, 10_000, 100_000]
-LIBRARIES = ("numpy", "scipy", "cvxopt", "libigl", "pymeshlab", "lapy")
+LIBRARIES = ("numpy", "scipy", "cvxopt", "libigl", "pymeshlab", "lapy", "trimesh", "meshio", "bpy")
 
 
 class OptionError(Exception):
@@ -37,13 +38,11 @@ def parser() -> argparse.ArgumentParser:
         prog="python -m benchmarks.speed", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     add = found.add_argument
-    add("--meshes", nargs="+", choices=("terrain", "face", "ellipsoid"), help="default: all, face if it is given")
-    add("--face", type=Path, help="mesh file to subdivide as the family face")
-    add("--sizes", type=int, nargs="+", default=SIZES, help="vertices of terrains; the largest ends the face's")
-    add("--closed-sizes", type=int, nargs="+", default=CLOSED_SIZES, help="vertices of ellipsoids")
+    add("--meshes", nargs="+", default=[], metavar="NAME", help=f"default: all. {', '.join(FAMILIES)}, scans by file")
+    add("--scans", type=Path, nargs="+", default=[], metavar="FILE", help="meshes to subdivide, a family each")
+    add("--sizes", type=int, nargs="+", default=[], help="vertices, or islands, instead of each family's own")
     add("--contestants", nargs="+", default=[], metavar="NAME", help="names or groups: ours, again, limit, peer")
-    add("--repeats", type=int, default=3, help="processes for each mesh and contestant")
-    add("--huge-repeats", type=int, default=2, help="the same for meshes over 1.5 million vertices")
+    add("--repeats", type=int, default=3, help="processes for each mesh and contestant, one if it takes over 45 s")
     add("--calls", type=int, default=5, help="calls within a process on meshes up to 100 000 vertices")
     add("--time-limit", type=float, default=300.0, help="seconds for a process")
     add("--memory-limit", type=float, default=0.0, metavar="GB", help="for a process")
@@ -82,17 +81,16 @@ def measure(options: argparse.Namespace, rows: Path) -> None:
     """Run what the options ask for, a line for each row."""
     try:
         contestants = named(options.contestants)
+        families = chosen(options.meshes, options.sizes, options.scans)
     except KeyError as error:
         raise OptionError(error.args[0]) from None
     with tempfile.TemporaryDirectory(dir=options.scratch) as scratch:
         plan = Plan(
-            meshes=chosen_meshes(options),
+            families=families,
             contestants=contestants,
             rows=rows.resolve(),
             scratch=Path(scratch),
-            face=None if options.face is None else options.face.resolve(),
             repeats=options.repeats,
-            huge_repeats=options.huge_repeats,
             calls=options.calls,
             time_limit=options.time_limit,
             memory_limit=options.memory_limit,
@@ -103,33 +101,23 @@ def measure(options: argparse.Namespace, rows: Path) -> None:
             print(told(row), flush=True)
 
 
-def chosen_meshes(options: argparse.Namespace) -> dict[str, list[int]]:
-    """Sizes of each family."""
-    families = options.meshes or ["terrain", *(["face"] if options.face else []), "ellipsoid"]
-    sizes = {"terrain": options.sizes, "ellipsoid": options.closed_sizes}
-    if "face" in families:
-        if options.face is None:
-            raise OptionError("the family face needs --face FILE")
-        from .meshes import subdivision_sizes
-
-        sizes["face"] = subdivision_sizes(options.face, max(options.sizes))
-    return {family: sizes[family] for family in families}
-
-
 def told(row: Row) -> str:
     """A row as a line of the log."""
-    where = f"{row.mesh:10}{row.n:>10,} {row.contestant:24}{row.repeat + 1:>2}"
+    where = f"{row.mesh:16}{row.n:>10,} {row.contestant:24}{row.repeat + 1:>2}"
     if row.status != "ok":
         return f"{where}  {row.note}"
     return f"{where}  {seconds(row.calls[0]['seconds']):>10}  {row.peak / 1e6:>8.0f} MB"
 
 
 def about() -> str:
-    """What ran: versions and the number of processors."""
+    """What ran, and on what."""
     versions = [f"Python {platform.python_version()}"]
     for name in LIBRARIES:
         if importlib.util.find_spec({"libigl": "igl"}.get(name, name)) is not None:
             versions.append(f"{name} {importlib.metadata.version(name)}")
+    with contextlib.suppress(OSError, StopIteration):
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+        versions.append(next(line.partition(": ")[2] for line in lines if line.startswith("model name")))
     return f"{', '.join(versions)}; {os.cpu_count()} processors."
 
 

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from .contestants.outcome import Arrays, Outcome, Stage
-from .memory import die_first, peak_memory, resident_memory
+from .memory import die_first, peak_memory, resident_memory, system_seconds
 
 __all__ = ["main"]
 
@@ -46,11 +46,16 @@ class Clock:
 def called(run: Run, arrays: Arrays, options: dict[str, Any]) -> tuple[dict[str, Any], Outcome]:
     """One call with the clock on."""
     clock = Clock()
-    cpu, start = time.process_time(), time.perf_counter()
+    system, cpu, start = system_seconds(), time.process_time(), time.perf_counter()
     outcome = run(arrays, clock, **options)
     clock("")
-    seconds, cpu = time.perf_counter() - start, time.process_time() - cpu
-    return {"seconds": seconds, "cpu": cpu, "stages": clock.stages}, outcome
+    told = {
+        "seconds": time.perf_counter() - start,
+        "cpu": time.process_time() - cpu,
+        "system": system_seconds() - system,
+        "stages": outcome.stages or clock.stages,
+    }
+    return told, outcome
 
 
 def silent(name: str) -> None:
@@ -58,7 +63,9 @@ def silent(name: str) -> None:
 
 
 def loaded(path: str) -> Arrays:
-    """All arrays of a file."""
+    """All arrays of a file; of a mesh file its path alone."""
+    if not path.endswith(".npz"):
+        return {"path": np.array(path)}
     with np.load(path) as file:
         return {name: file[name] for name in file.files}
 

@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib
 
 from .contestants import CONTESTANTS
+from .families import FAMILIES
 from .rows import Row, cells, first_seconds, peak, spread
 
 matplotlib.use("Agg")
@@ -21,27 +22,14 @@ __all__ = ["draw"]
 
 Points = list[tuple[int, float]]
 
-# Colours of Okabe and Ito, which colour-blind readers tell apart.
-BLACK, ORANGE, SKY, GREEN, BLUE, VERMILLION, PURPLE = (
-    "#000000",
-    "#E69F00",
-    "#56B4E9",
-    "#009E73",
-    "#0072B2",
-    "#D55E00",
-    "#CC79A7",
-)
+# By how names begin; of Okabe and Ito, whose colours colour-blind readers tell apart.
 COLOURS = {
-    "linear": BLUE,
-    "newton": VERMILLION,
-    "sphere-linear": BLUE,
-    "sphere-newton": VERMILLION,
-    "limit": BLACK,
-    "libigl": GREEN,
-    "meshlab": PURPLE,
-    "blender": ORANGE,
-    "bff": SKY,
-    "lapy": GREEN,
+    **dict.fromkeys(("linear", "sphere-linear"), "#0072B2"),
+    **dict.fromkeys(("newton", "sphere-newton"), "#D55E00"),
+    **dict.fromkeys(("libigl", "lapy"), "#009E73"),
+    **dict.fromkeys(("meshlab", "filter"), "#CC79A7"),
+    "blender": "#E69F00",
+    "limit": "#000000",
 }
 MARKERS = {"harmonic": "o", "conformal": "o", "lscm": "s", "angle": "s"}
 
@@ -50,6 +38,8 @@ def draw(rows: list[Row], folder: Path) -> list[Path]:
     """The pictures' paths."""
     drawn = []
     for mesh in dict.fromkeys(row.mesh for row in rows):
+        if mesh in FAMILIES and FAMILIES[mesh].kind not in ("disk", "closed"):
+            continue
         here = [row for row in rows if row.mesh == mesh]
         for name, number, label in (
             ("time", first_seconds, "seconds"),
@@ -62,31 +52,20 @@ def draw(rows: list[Row], folder: Path) -> list[Path]:
 
 
 def _picture(rows: list[Row], number: Callable[[Row], float], label: str, path: Path) -> bool:
-    """One picture: a panel for CHOLMOD and the peers, one for SuperLU where it was run."""
-    lines = {name: points for name in CONTESTANTS if (points := _points(rows, name, number))}
-    again = {name for name in lines if CONTESTANTS[name].group == "again"}
-    superlu = {name: lines[name] for name in lines if "superlu" in name}
-    first = {name: lines[name] for name in lines if name not in superlu and name not in again}
-    closed = all(CONTESTANTS[name].closed for name in lines)
-    titles = {"" if closed else "ours with CHOLMOD, its limit, other programs": first}
-    titles["ours with SuperLU, its limit"] = superlu
-    panels = {title: panel for title, panel in titles.items() if panel}
-    if not panels:
+    """One picture: ours with CHOLMOD, its limit, the peers."""
+    shown = [name for name in CONTESTANTS if "superlu" not in name and CONTESTANTS[name].group != "again"]
+    lines = {name: points for name in shown if (points := _points(rows, name, number))}
+    if not lines:
         return False
-    figure, axes = plt.subplots(
-        1, len(panels), figsize=(8.2 * len(panels), 5.6), sharey=True, squeeze=False, layout="constrained"
-    )
-    for ax, (title, panel) in zip(axes[0], panels.items(), strict=True):
-        ax.set_title(title, fontsize=10, loc="left", color="0.3")
-        for name, points in panel.items():
-            ax.plot(*zip(*points, strict=True), **_style(name), clip_on=False, label=name)
-        ax.set_xscale("log")
-        ax.set_yscale("log")
-        ax.set_xlabel("vertices")
-    axes[0][0].set_ylabel(label)
-    for ax, panel in zip(axes[0], panels.values(), strict=True):  # once both panels have set the limits they share
-        _ticks(ax, sorted({n for points in lines.values() for n, _ in points}))
-        _legend(ax, panel)
+    figure, ax = plt.subplots(figsize=(8.2, 5.6), layout="constrained")
+    for name, points in lines.items():
+        ax.plot(*zip(*points, strict=True), **_style(name), clip_on=False, label=name)
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlabel("vertices")
+    ax.set_ylabel(label)
+    _ticks(ax, sorted({n for points in lines.values() for n, _ in points}))
+    ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=9, handlelength=3.0)
     figure.suptitle(f"{rows[0].mesh}: {label}, median over processes")
     figure.savefig(path, dpi=150)
     plt.close(figure)
@@ -122,33 +101,10 @@ def _ticks(ax: Axes, sizes: Sequence[int]) -> None:
     for n in sizes:
         if not kept or n > 1.6 * kept[-1]:
             kept.append(n)
-    ax.set_xticks(kept, [_short(n) for n in kept])
+    ax.set_xticks(kept, [f"{n / 1e6:.2g}M" if n >= 999_500 else f"{n / 1e3:.3g}k" for n in kept])
     ax.xaxis.set_minor_locator(NullLocator())
     ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     low, high = ax.get_ylim()
     ax.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: f"{value:g}") if high < 15 * low else NullFormatter())
     ax.grid(True, which="major", color="0.9", linewidth=0.8)
     ax.spines[["top", "right"]].set_visible(False)
-
-
-def _short(n: int) -> str:
-    return f"{n / 1e6:.2g}M" if n >= 999_500 else f"{n / 1e3:.3g}k"
-
-
-def _legend(ax: Axes, lines: dict[str, Points]) -> None:
-    """Names beside the panel, in the order of the lines at the largest size that most of them reached."""
-    shared = sorted(n for points in lines.values() for n, _ in points)[-max(len(lines), 1) :][0]
-    heights = {name: min(points, key=lambda point: abs(point[0] - shared))[1] for name, points in lines.items()}
-    handles = {line.get_label(): line for line in ax.get_lines()}
-    names = sorted(lines, key=lambda name: -heights[name])
-    legend = ax.legend(
-        [handles[name] for name in names],
-        names,
-        loc="upper left",
-        bbox_to_anchor=(1.01, 1.0),
-        frameon=False,
-        fontsize=9,
-        handlelength=3.0,
-    )
-    for name, text in zip(names, legend.get_texts(), strict=True):
-        text.set_fontweight("bold" if CONTESTANTS[name].group == "ours" else "normal")

@@ -9,18 +9,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-__all__ = [
-    "Row",
-    "Spread",
-    "append_row",
-    "cells",
-    "first_seconds",
-    "peak",
-    "read_rows",
-    "spread",
-    "stage_seconds",
-    "warm_seconds",
-]
+__all__ = ["Row", "Spread", "append_row", "cells", "first_seconds", "peak", "read_rows", "spread", "stage_seconds"]
+__all__ += ["warm_seconds"]
 
 
 @dataclass
@@ -36,7 +26,8 @@ class Row:
     note : str
         Why not.
     calls : list of dict
-        For each call in the process: seconds, cpu (seconds of all threads), stages (seconds by name).
+        For each call in the process: seconds, cpu (seconds of all threads) and how many of them the system's, stages
+        (seconds by name).
     before, peak : int
         Bytes resident just before the call (0 where the system does not tell), and at most up to its end.
     later : dict

@@ -9,15 +9,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .contestants import Contestant
+from .families import Family
 from .processes import child, module
 from .rows import Row, append_row, read_rows
 
 __all__ = ["Plan", "Runner"]
 
-TINY = 400  # vertices of the mesh to warm up on
 SMALL = 100_000  # size up to which the call is repeated within a process
 BIG = 250_000  # vertices from which memory is touched before
-HUGE = 1_500_000  # vertices from which there are fewer repeats
+LONG = 45.0  # seconds of a first run after which there is no second
+LOOKED_AT = ("disk", "closed", "fan")  # kinds of families whose maps have their quality measured
+MAKERS = {"matrix": ("matrices", ".matrix.npz"), "obj": ("files", ".obj"), "ply": ("files", ".ply")}
 
 
 @dataclass(frozen=True)
@@ -26,17 +28,14 @@ class Plan:
 
     Attributes
     ----------
-    meshes : dict
-        Sizes of each family of meshes.
+    families : list of Family
     contestants : list of Contestant
     rows : Path
         The JSON lines that rows are added to.
     scratch : Path
         A folder for meshes and maps; they are removed after each size.
-    face : Path, optional
-        File that the family "face" is subdivided from.
-    repeats, huge_repeats : int
-        Processes for each mesh and contestant, and for meshes over 1.5 million vertices.
+    repeats : int
+        Processes for each mesh and contestant.
     calls : int
         Calls within a process, for meshes up to 100 000 vertices.
     time_limit : float
@@ -49,13 +48,11 @@ class Plan:
         Interpreter that has bpy.
     """
 
-    meshes: dict[str, list[int]]
+    families: list[Family]
     contestants: list[Contestant]
     rows: Path
     scratch: Path
-    face: Path | None = None
     repeats: int = 3
-    huge_repeats: int = 2
     calls: int = 5
     time_limit: float = 300.0
     memory_limit: float = 0.0
@@ -78,33 +75,33 @@ class Runner:
 
     def run(self) -> Iterator[Row]:
         """Each new row as it comes."""
-        for family, sizes in self.plan.meshes.items():
-            racers = [c for c in self.plan.contestants if c.closed == (family == "ellipsoid")]
-            if not racers:
-                continue
-            for size in sorted(sizes):
-                yield from self._size(family, size, racers)
+        for family in self.plan.families:
+            for size in sorted(family.sizes):
+                fit = [c for c in self.plan.contestants if family.kind in c.kinds and size <= c.largest]
+                yield from self._size(family, size, fit)
 
-    def _size(self, family: str, size: int, racers: list[Contestant]) -> Iterator[Row]:
+    def _size(self, family: Family, size: int, racers: list[Contestant]) -> Iterator[Row]:
         """All rows of one mesh."""
-        repeats = self.plan.repeats if size < HUGE else min(self.plan.repeats, self.plan.huge_repeats)
-        open_ = [(r, c) for r in range(repeats) for c in racers if (family, size, c.name, r) not in self._known]
+        turns = [(r, c) for r in range(self.plan.repeats) for c in racers]
+        open_ = [(r, c) for r, c in turns if (family.name, size, c.name, r) not in self._known]
         if not open_:
             return
-        made = self._made(family, size, any(c.group == "limit" for _, c in open_))
+        made = self._made(family, size, {c.input for _, c in open_})
         for repeat, contestant in open_:
-            if repeat and self._known[family, size, contestant.name, 0].status != "ok":
+            first = self._known.get((family.name, size, contestant.name, 0))
+            if repeat and first and (first.status != "ok" or first.calls[0]["seconds"] > LONG):
                 continue
-            why = self._hopeless(family, contestant)
-            row = Row(family, size, *self._counts, contestant.name, repeat, "skipped", why)
+            why = self._hopeless(family.name, contestant)
+            row = Row(family.name, size, *self._counts, contestant.name, repeat, "skipped", why)
             if not row.note:
-                self._measure(row, contestant, made)
+                self._measure(row, contestant, made, look=family.kind in LOOKED_AT)
             append_row(self.plan.rows, row)
             self.rows.append(row)
             self._known[row.key] = row
             yield row
-        for name in ("mesh", "mesh matrix"):
-            made[name].unlink(missing_ok=True)
+        for name, path in made.items():
+            if name.startswith("mesh"):
+                path.unlink(missing_ok=True)
 
     def _hopeless(self, family: str, contestant: Contestant) -> str:
         """Why not even to try: what happened on a smaller mesh."""
@@ -115,51 +112,54 @@ class Runner:
                 return f"{row.note} at {row.n} vertices"
         return ""
 
-    def _made(self, family: str, size: int, with_matrix: bool) -> dict[str, Path]:
-        """Files of a mesh, of a tiny one, and of their matrices."""
+    def _made(self, family: Family, size: int, inputs: set[str]) -> dict[str, Path]:
+        """Files of a mesh and of a tiny one, and what else of them the contestants are given."""
         folder = self.plan.scratch
-        tiny = "terrain" if family == "face" else family
-        self._counts = size, 0
-        made = {"mesh": folder / "mesh.npz", "tiny": folder / f"tiny-{tiny}.npz"}
-        for name, kind, count in (("mesh", family, size), ("tiny", tiny, TINY)):
-            file = [self.plan.face] if kind == "face" else []
-            made[f"{name} matrix"] = made[name].with_suffix(".matrix.npz")
+        self._counts, self._trouble = (size, 0), ""
+        kind, few = family.tiny
+        made = {"mesh": folder / "mesh.npz", "tiny": folder / f"tiny-{kind}.npz"}
+        file = [] if family.file is None else [family.file]
+        for name, what in (("mesh", (family.name, size, made["mesh"], *file)), ("tiny", (kind, few, made["tiny"]))):
             try:
                 if not made[name].exists():
-                    n, m = map(int, module("meshes", kind, count, made[name], *file).split())
+                    n, m = map(int, module("meshes", *what).split())
                     self._counts = self._counts if name == "tiny" else (n, m)
-                if with_matrix and not made[f"{name} matrix"].exists():
-                    module("matrices", made[name], made[f"{name} matrix"])
+                for kind in sorted(inputs - {"mesh"}):
+                    maker, suffix = MAKERS[kind]
+                    path = made[f"{name} {kind}"] = made[name].with_suffix(suffix)
+                    if not path.exists():
+                        module(maker, made[name], path)
             except RuntimeError as error:
                 self._trouble = str(error)
         return made
 
-    def _measure(self, row: Row, contestant: Contestant, made: dict[str, Path]) -> None:
-        """Fill in a row."""
-        matrix = " matrix" if contestant.group == "limit" else ""
+    def _measure(self, row: Row, contestant: Contestant, made: dict[str, Path], look: bool) -> None:
+        """Fill in a row; whether to look at the map."""
+        kind = "" if contestant.input == "mesh" else f" {contestant.input}"
+        mesh, tiny = (made.get(f"{name}{kind}") for name in ("mesh", "tiny"))
         folder = self.plan.scratch
-        if not made[f"mesh{matrix}"].exists() or not made[f"tiny{matrix}"].exists():
+        if mesh is None or tiny is None or not (mesh.exists() and tiny.exists()):
             row.status, row.note = "failed", self._trouble
             return
         map_file = folder / "map.npy"
         job = {
             "module": contestant.module,
             "options": contestant.options,
-            "input": str(made[f"mesh{matrix}"]),
-            "warm_up": str(made[f"tiny{matrix}"]),
+            "input": str(mesh),
+            "warm_up": str(tiny),
             "calls": self.plan.calls if row.size <= SMALL else 1,
             "map": str(map_file),
             "told": str(folder / "told.json"),
         }
         if self.plan.touch and row.n >= BIG:
-            module("touch", self.plan.touch)
+            module("memory", self.plan.touch)
         python = self.plan.blender_python if contestant.blender else sys.executable
         told = child(python, job, folder / "job.json", self.plan.time_limit, self.plan.memory_limit)
         if told["status"] == "not installed":
             told["note"] = f"not installed ({contestant.needs or told['note']})"
         for name, value in told.items():
             setattr(row, name, value)
-        if row.status == "ok" and row.repeat == 0 and contestant.target != "none":
+        if look and row.status == "ok" and row.repeat == 0 and contestant.target != "none":
             try:
                 row.quality = json.loads(module("quality", made["mesh"], map_file))
             except RuntimeError as error:

@@ -9,12 +9,12 @@ from .outcome import Arrays, Outcome, Stage
 RELATIVE_TOLERANCE = 1e-6  # of the projected gradient, relative to where Newton's method starts
 
 
-def run(arrays: Arrays, stage: Stage, *, method: str, backend: str) -> Outcome:
-    """Everything from the checks of the arrays on."""
+def run(arrays: Arrays, stage: Stage, *, method: str, backend: str, prefix: str = "") -> Outcome:
+    """Everything from the checks of the arrays on, of those whose names have the prefix."""
     stage("checks")
     result = cuv.disk_map(
-        arrays["V"],
-        arrays["F"],
+        arrays[f"{prefix}V"],
+        arrays[f"{prefix}F"],
         method=method,
         backend=backend,
         callback=lambda name, fraction: stage(name),

@@ -28,4 +28,4 @@ def run(arrays: Arrays, stage: Stage, *, method: str) -> Outcome:
         return Outcome(mesh.vertex_tex_coord_matrix())
     uv = np.empty((len(arrays["V"]), 2))
     uv[arrays["F"].reshape(-1)] = mesh.wedge_tex_coord_matrix()
-    return Outcome(uv)
+    return Outcome(2.0 * uv - 1.0 if method == "conformal disk" else uv)  # ours fills the square [0, 1]^2

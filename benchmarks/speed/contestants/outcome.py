@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 __all__ = ["Arrays", "Outcome", "Stage"]
 
 Arrays = dict[str, NDArray[Any]]
-"""A mesh, ``V`` (n, 3) float64 and ``F`` (m, 3) int64; for the limit a matrix, ``data``, ``indices``, ``indptr``."""
+"""``V`` (n, 3) float64 and ``F`` (m, 3 or 4) int64; a matrix' ``data``, ``indices``, ``indptr``; or ``path``."""
 
 Stage = Callable[[str], None]
 """Called at the beginning of each stage with its name."""
@@ -27,7 +27,10 @@ class Outcome:
     uv : (n, 2) or (n, 3) float64, or None
     later : dict
         Numbers to compute afterwards, each timed by itself.
+    stages : dict
+        Seconds of the stages, where the contestant itself tells them.
     """
 
     uv: NDArray[np.float64] | None = None
     later: dict[str, Callable[[], float]] = field(default_factory=dict)
+    stages: dict[str, float] = field(default_factory=dict)
