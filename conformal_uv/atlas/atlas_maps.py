@@ -95,8 +95,9 @@ def _energies(disks: Disks, z: Complex) -> tuple[Real, Real]:
     zb = z[disks.loop]
     ahead, _ = neighbours(disks.first_boundary)
     enclosed = np.imag(np.conj(zb) * zb[ahead])
-    conformal = np.bincount(disks.of_face, lost, len(disks))
-    return conformal, conformal + 0.5 * np.bincount(disks.of_boundary, enclosed, len(disks))
+    conformal: Real = np.bincount(disks.of_face, lost, len(disks)).astype(np.float64, copy=False)
+    area: Real = 0.5 * np.bincount(disks.of_boundary, enclosed, len(disks))
+    return conformal, conformal + area
 
 
 def _surface(disks: Disks, disk: int) -> Surface:

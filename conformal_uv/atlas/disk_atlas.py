@@ -7,7 +7,6 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..disk import DiskMap
 from ..disk.auto import GOOD
 from ..disk.placement import inside_disk
 from ..disk.relative_energy import FEW
@@ -28,6 +27,7 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 Complex = NDArray[np.complex128]
 Turns = Callable[[Complex], Complex]
+
 
 def takes(options: DiskOptions) -> bool:
     """Whether disks are mapped together with these options; others want to see each disk."""

@@ -24,6 +24,7 @@ class LoopRows(NamedTuple):
     disk: Ints
     at: Ints
 
+
 def loop_rows(first_boundary: Ints, chosen: Ints | None = None) -> Iterator[LoopRows]:
     """The disks, or some of them, by the number of their boundary vertices, in ascending order.
 

@@ -1,7 +1,7 @@
 """Newton's method on the boundary angles of many disks at once, each with its own steps.
 
 As `disk.newton`, for boundaries so short that the Hessian is at hand as a matrix: directions are solved for directly,
-not by conjugate gradients. Where the Hessian is not positive, neighbours come together, no step lowers the energy or
+conjugate gradients serve only where it is not positive. Where neighbours come together, no step lowers the energy or
 the iteration does not end, nothing is decided here: that disk is left to the way that knows what to do then.
 """
 
@@ -12,10 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.fft import irfft, rfft
 
-from ..disk.newton import LINEAR_TO, SHORT_PART, SMALLEST_GAP
+from ..disk.newton import LEAST_FORCING, LINEAR_TO, SHORT_PART, SMALLEST_GAP
+from ..disk.preconditioner import FourierPreconditioner
 from ..optimize.line_search import HALVINGS, SUFFICIENT_DECREASE
 from .boundary_rows import EnergyRows, centred_rows
+from .cg_rows import truncated_cg_rows
 
 __all__ = ["NewtonRows", "Step", "minimised_rows"]
 
@@ -165,7 +168,7 @@ class _Place:
         return np.asarray(direction - np.einsum("rkc,rc->rk", self._basis, along))
 
     def directions(self) -> tuple[Real, Bools]:
-        """Newton's directions (r, nb), and of which rows they lead to a minimum."""
+        """Newton's directions (r, nb), and which rows have any."""
         basis, across = self._basis, self._basis.transpose(0, 2, 1)
         diagonal = np.abs(np.einsum("rcc->rc", self._size))
         sound = diagonal.min(axis=1) > DEPENDENT * diagonal.max(axis=1)
@@ -176,12 +179,36 @@ class _Place:
         H -= (H @ basis) @ across
         H += basis @ across
         H = 0.5 * (H + H.transpose(0, 2, 1))
+        convex = sound.copy()
         try:
             np.linalg.cholesky(H)
         except np.linalg.LinAlgError:
-            sound &= np.linalg.eigvalsh(H)[:, 0] > 0.0
-            H[~sound] = np.eye(H.shape[1])
-        return self._projected(np.linalg.solve(H, -self._gradient[:, :, None])[:, :, 0]), sound
+            convex &= np.linalg.eigvalsh(H)[:, 0] > 0.0
+        bent = np.flatnonzero(sound & ~convex)
+        found = np.empty_like(self._gradient)
+        if len(bent):
+            found[bent] = self._truncated(H[bent], bent)
+        H[~convex] = np.eye(H.shape[1])
+        direct = np.linalg.solve(H, -self._gradient[:, :, None])[:, :, 0]
+        return self._projected(np.where(convex[:, None], direct, found)), sound
+
+    def _truncated(self, H: Real, rows: Ints) -> Real:
+        """Directions (k, nb) of some rows whose Hessians H (k, nb, nb) are not positive."""
+        nb = H.shape[1]
+        multiplier = FourierPreconditioner(nb).multiplier
+        basis, gradient = self._basis[rows], self._gradient[rows]
+        across = basis.transpose(0, 2, 1)
+        image = irfft(rfft(basis, axis=1) / multiplier[:, None], nb, axis=1)
+        gram = across @ image
+
+        def precondition(residual: Real, k: Ints) -> Real:
+            free = irfft(rfft(residual, axis=1) / multiplier, nb, axis=1)[:, :, None]
+            held = free - image[k] @ np.linalg.solve(gram[k], across[k] @ free)
+            return np.asarray((held - basis[k] @ (across[k] @ held))[:, :, 0])
+
+        norm = self.norm[rows]
+        goal = np.minimum(0.1, np.maximum(LEAST_FORCING, 0.5 * norm)) * norm
+        return truncated_cg_rows(gradient, H, precondition, goal)
 
     def _bend(self, sound: Bools) -> Real:
         """As `disk.gauge.CentreGauge.curvature`."""

@@ -94,9 +94,7 @@ class NewtonSolver:
             self.converged[rows.disk], self._norm[rows.disk] = found.converged, found.norm
             if held:
                 self._first[rows.disk] = found.first
-            self._rounds += [
-                _Round(rows.disk[step.row], step.value, step.norm, step.length) for step in found.steps
-            ]
+            self._rounds += [_Round(rows.disk[step.row], step.value, step.norm, step.length) for step in found.steps]
 
     def _worth_releasing(self) -> Ints:
         """Disks whose centres may be released, as `disk.centre_cell` decides."""
@@ -139,4 +137,5 @@ class NewtonSolver:
             gone = rows.disk[back]
             for number in range(kept[2], len(self._rounds)):
                 made = self._rounds[number]
-                self._rounds[number] = _Round(*(part[~np.isin(made.disk, gone)] for part in made))
+                stay = ~np.isin(made.disk, gone)
+                self._rounds[number] = _Round(made.disk[stay], made.value[stay], made.norm[stay], made.length[stay])

@@ -66,10 +66,10 @@ class ChartAtlas:
         ends = np.cumsum(self._meshes.weights()[chosen])
         for part in np.split(chosen, np.flatnonzero(np.diff(ends // BATCH)) + 1):
             told.start(part)
-            batch = self._batch(part, progress)
-            if batch is not None:
-                made.append(batch)
-                yield batch
+            found = self._batch(part, progress)
+            if found is not None:
+                made.append(found)
+                yield found
         self._made = chosen, made
 
     def _batch(self, part: Ints, progress: Progress) -> _Batch | None:
@@ -89,7 +89,7 @@ class ChartAtlas:
 
 
 class _Batch(NamedTuple):
-    """Charts that are mapped together; F (m, 3) are the triangles of their own polygons, `chart` (m,) whose they are."""
+    """Charts that are mapped together; F (m, 3) are the triangles of their polygons, `chart` (m,) says whose."""
 
     atlas: DiskAtlas
     F: Ints

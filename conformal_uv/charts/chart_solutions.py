@@ -14,6 +14,7 @@ from .chart_meshes import ChartMeshes
 
 __all__ = ["ChartSolutions"]
 
+Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 Real = NDArray[np.float64]
 
@@ -92,13 +93,13 @@ class ChartSolutions:
             out[number] = one.map is not None and len(one.map.flipped) > 0
         return out
 
-    def lost_to_double(self) -> NDArray[np.int64]:
+    def lost_to_double(self) -> Ints:
         """Number of each chart's triangles that doubles can not hold, (c,); of those mapped together none."""
-        out = np.zeros(len(self.mapped), dtype=np.int64)
+        lost: Ints = np.zeros(len(self.mapped), dtype=np.int64)
         for number, one in self.alone.items():
             if one.map is not None and len(one.map.flipped):
-                out[number] = len(one.map.lost_to_double)
-        return out
+                lost[number] = len(one.map.lost_to_double)
+        return lost
 
     def energies(self) -> tuple[Real, Real]:
         """Conformal and Dirichlet energies of the maps, (c,), 0 where there is none."""

@@ -120,7 +120,9 @@ class Unwrapper:
         solutions = ChartSolutions(self._meshes)
         together = np.array([shape is Shape.DISK for shape in shapes], dtype=bool)
         if vertices:
-            together &= ~self._meshes.with_any(np.concatenate((vertices.center, vertices.boundary_vertex, vertices.pins)))
+            together &= ~self._meshes.with_any(
+                np.concatenate((vertices.center, vertices.boundary_vertex, vertices.pins))
+            )
         for maps in self._atlas.maps(together, how, progress):
             solutions.take(maps)
         callback = progress if progress.wanted else None

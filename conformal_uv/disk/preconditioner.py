@@ -17,12 +17,12 @@ Real = NDArray[np.float64]
 
 
 class FourierPreconditioner:
-    """``irfft(rfft(r) / max(|k| - 1, 1))`` over nb boundary vertices."""
+    """``irfft(rfft(r) / multiplier)`` over nb boundary vertices, the multiplier ``max(|k| - 1, 1)``."""
 
     def __init__(self, nb: int) -> None:
         self._size = nb
-        self._multiplier = np.maximum(np.arange(nb // 2 + 1) - 1.0, 1.0)
+        self.multiplier = np.maximum(np.arange(nb // 2 + 1) - 1.0, 1.0)
 
     def __call__(self, residual: Real) -> Real:
         """Apply to a residual (nb,)."""
-        return irfft(rfft(residual) / self._multiplier, self._size)
+        return irfft(rfft(residual) / self.multiplier, self._size)
