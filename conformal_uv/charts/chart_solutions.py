@@ -105,8 +105,8 @@ class ChartSolutions:
         """Conformal and Dirichlet energies of the maps, (c,), 0 where there is none."""
         conformal, dirichlet = np.zeros(len(self.mapped)), np.zeros(len(self.mapped))
         for maps in self._together:
-            number = maps.disks.number[maps.good]
-            conformal[number], dirichlet[number] = maps.conformal[maps.good], maps.dirichlet[maps.good]
+            own, good = maps.disks.number[maps.good], maps.good
+            conformal[own], dirichlet[own] = maps.conformal[good], maps.dirichlet[good]
         for number, one in self.alone.items():
             if one.map is not None:
                 conformal[number], dirichlet[number] = one.map.conformal_energy, one.map.dirichlet_energy
