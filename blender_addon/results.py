@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from conformal_uv import Chart, ConformalUVError, DistortionNumbers, Remedy, UnwrapNumbers, unwrap_numbers
+from conformal_uv import ConformalUVError, DistortionNumbers, Remedy, UnwrapNumbers, unwrap_numbers
 
 from .choices import CLOSED, METHODS
 from .tasks import Task
@@ -144,11 +144,13 @@ def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
         tried = task.surface is not None or task.mendable
         return ObjectResult(task.ob.name, task.layer, refusal=task.refusal, tried=tried, notes=task.notes)
     charts, written = task.solved.charts, task.written
-    done = [chart for chart, new in zip(charts, written, strict=True) if new]
+    done = np.flatnonzero(written)
     failures = [
-        Failure(task.own_faces(chart.faces).tolist(), task.left.get(number) or in_words_of_the_panel(chart.error))
-        for number, chart in enumerate(charts)
-        if not written[number]
+        Failure(
+            task.own_faces(charts[number].faces).tolist(),
+            task.left.get(number) or in_words_of_the_panel(charts.errors[number]),
+        )
+        for number in np.flatnonzero(~written).tolist()
     ]
     lost = task.solved.lost_to_float32(stored)[written].sum() if stored is not None else 0
     return ObjectResult(
@@ -157,15 +159,14 @@ def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
         islands=len(charts),
         failures=failures,
         left=len(task.left),
-        notes=task.notes + [note for chart in done for note in chart.notes] + _unconverged(done),
-        flipped=sum(len(chart.flipped) for chart in done),
+        notes=task.notes + charts.notes(done) + _unconverged(int((~charts.converged[done]).sum())),
+        flipped=len(charts.flipped(done)),
         lost_to_float32=int(lost),
         measure=lambda: unwrap_numbers(task.solved, uv=stored, chosen=written),
     )
 
 
-def _unconverged(charts: list[Chart]) -> list[str]:
-    count = sum(not chart.map.converged for chart in charts)
+def _unconverged(count: int) -> list[str]:
     return [f"{count} islands stopped before the method's tolerance"] if count else []
 
 

@@ -62,10 +62,11 @@ class Task:
     def take(self, solved: Unwrapped, options: Options) -> None:
         """Keep what was solved, and find the islands whose UVs are to stay as they are."""
         self.solved, self.left = solved, {}
+        if not (self.pinned.any() or self.unselected.any()):
+            return
         offered = offered_pins(self.surface.arrays, self.surface.chosen, options)
-        for number, chart in enumerate(solved.charts):
-            if chart.map is None:
-                continue
+        for number in np.flatnonzero(solved.charts.mapped).tolist():
+            chart = solved.charts[number]
             own = self.own_faces(chart.faces)
             if self.pinned[own].any() and not took_pins(chart, offered):
                 self.left[number] = f"pinned UVs stay where they are{HOW_TO_USE[options.shape]}"
@@ -77,8 +78,9 @@ class Task:
         """Charts with new UVs, (c,)."""
         if self.solved is None:
             return np.zeros(0, dtype=bool)
-        done = [chart.map is not None and number not in self.left for number, chart in enumerate(self.solved.charts)]
-        return np.array(done, dtype=bool)
+        done = self.solved.charts.mapped.copy()
+        done[list(self.left)] = False
+        return done
 
     @property
     def mapped(self) -> NDArray[np.bool_]:

@@ -28,15 +28,11 @@ def polygon_quality(result: Unwrapped, quality: Quality) -> NDArray[np.float64]:
     A ratio without bound (a polygon without area, here or in the image) becomes the largest finite one: MeshLab's
     colour scale can not hold it.
     """
-    total, count = np.zeros(len(result.mapped)), np.zeros(len(result.mapped))
-    for chart in result.charts:
-        if chart.distortion is None:
-            continue
-        d = chart.distortion
-        value = d.angle_error.mean(axis=1) if quality is Quality.ANGLE else _bounded(d.quasi_conformal)
-        np.add.at(total, chart.polygon, value)
-        np.add.at(count, chart.polygon, 1.0)
-    return total / np.maximum(count, 1.0)
+    d, triangle = result.charts.distortion(result.charts.mapped)
+    value = d.angle_error.mean(axis=1) if quality is Quality.ANGLE else _bounded(d.quasi_conformal)
+    polygon, faces = result.charts.polygon[triangle], len(result.mapped)
+    total, count = np.bincount(polygon, value, faces), np.bincount(polygon, minlength=faces)
+    return np.asarray(total / np.maximum(count, 1))
 
 
 def _bounded(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -69,8 +65,8 @@ def map_numbers(source: CurrentMesh, result: Unwrapped, texcoords: Texcoords) ->
 
 def _shape_fields(result: Unwrapped) -> dict[str, float]:
     """What only maps with a free boundary, or a single rectangle, have."""
-    maps = [chart.map for chart in result.charts if chart.map is not None]
-    if isinstance(maps[0], FreeMap):
+    maps = result.charts.shaped
+    if maps and isinstance(maps[0], FreeMap):
         return {"crossings": sum(len(found.crossings) for found in maps if isinstance(found, FreeMap))}
     if len(maps) == 1 and isinstance(maps[0], RectangleMap):
         low, high = maps[0].modulus_bounds

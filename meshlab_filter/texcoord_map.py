@@ -73,8 +73,8 @@ def _check_mapped(result: Unwrapped) -> None:
     failure = result.failure()
     if failure is not None:
         raise failure
-    if any(chart.error is not None for chart in result.charts):
+    if result.charts.errors:
         logger.warning("%s", result.summary)
-    crossing = sum(isinstance(chart.map, FreeMap) and len(chart.map.crossings) > 0 for chart in result.charts)
+    crossing = sum(isinstance(found, FreeMap) and len(found.crossings) > 0 for found in result.charts.shaped)
     if crossing:
         logger.warning("The boundary of %d charts crosses itself; parts of the surface share their texture.", crossing)

@@ -48,13 +48,14 @@ class NewtonRows(NamedTuple):
     theta : (r, nb) float64
     converged : (r,) bool
         What is told of the others means nothing.
-    norm, first : (r,) float64
-        Norms of the projected gradient, at the end and at first.
+    value, norm, first : (r,) float64
+        Energies at the end, and norms of the projected gradient at the end and at first.
     steps : list of Step
     """
 
     theta: Real
     converged: Bools
+    value: Real
     norm: Real
     first: Real
     steps: list[Step]
@@ -85,13 +86,13 @@ def minimised_rows(
     problem = _Problem(S, measure, np.einsum("rk,rk->r", measure, theta), held=held)
     theta = problem.restored(theta)
     goal = np.maximum(SHORT_PART * tolerance, 64.0 * EPS * problem.degrees)
-    norm, first = np.full(len(theta), np.nan), np.full(len(theta), np.nan)
+    value, norm, first = np.full((3, len(theta)), np.nan)
     converged = np.zeros(len(theta), dtype=bool)
     steps: list[Step] = []
     left = np.flatnonzero(_apart(theta))
     here = _Place(problem.some(left), theta[left])
     for number in range(max_iterations + 1):
-        norm[left] = here.norm
+        value[left], norm[left] = here.energy.value, here.norm
         if number == 0:
             first[left] = here.norm
             goal[left] = np.maximum(goal[left], SHORT_PART * relative_tolerance * here.norm)
@@ -108,7 +109,7 @@ def minimised_rows(
         theta[left[taken]] = there.energy.theta[taken]
         taken &= _apart(there.energy.theta)
         left, here = left[taken], there.some(taken)
-    return NewtonRows(theta, converged, norm, first, steps)
+    return NewtonRows(theta, converged, value, norm, first, steps)
 
 
 @dataclass(frozen=True, eq=False)

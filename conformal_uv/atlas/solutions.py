@@ -59,7 +59,7 @@ class NewtonSolver:
         self._S = FluxMatrices(problem, disks.first_boundary)
         self._theta, self._rounds = seen.theta.copy(), list[_Round]()
         self.converged = np.zeros(count, dtype=bool)
-        self._norm, self._first = np.full(count, np.nan), np.full(count, np.nan)
+        self._value, self._norm, self._first = np.full((3, count), np.nan)
         self._minimise(np.flatnonzero(seen.found), options.tolerance, held=True)
         self.z = problem.extend(np.exp(1j * self._theta))
         free = self._worth_releasing()
@@ -74,9 +74,7 @@ class NewtonSolver:
             at = int(np.searchsorted(made.disk, disk))
             if at < len(made.disk) and made.disk[at] == disk:
                 steps.append(NewtonStep(float(made.value[at]), float(made.norm[at]), 0, float(made.length[at])))
-        (rows,) = loop_rows(self._disks.first_boundary, np.array([disk]))
-        value = EnergyRows(self._S.of(rows), self._theta[rows.at]).value
-        return (*steps, NewtonStep(float(value[0]), float(self._norm[disk]), 0, 0.0))
+        return (*steps, NewtonStep(float(self._value[disk]), float(self._norm[disk]), 0, 0.0))
 
     def _minimise(self, chosen: Ints, tolerance: Real | float, *, held: bool) -> None:
         """Of the chosen disks, from where they are; `tolerance` is of all disks or of each (c,)."""
@@ -91,7 +89,8 @@ class NewtonSolver:
                 max_iterations=self._options.max_iterations,
             )
             self._theta[rows.at] = found.theta
-            self.converged[rows.disk], self._norm[rows.disk] = found.converged, found.norm
+            self.converged[rows.disk] = found.converged
+            self._value[rows.disk], self._norm[rows.disk] = found.value, found.norm
             if held:
                 self._first[rows.disk] = found.first
             self._rounds += [_Round(rows.disk[step.row], step.value, step.norm, step.length) for step in found.steps]
@@ -124,7 +123,7 @@ class NewtonSolver:
 
     def _release(self, free: Ints) -> None:
         """Minimise without holding the centres, where that keeps them in their cells."""
-        kept = self._theta.copy(), self._norm.copy(), len(self._rounds)
+        theta, value, norm, made_before = self._theta.copy(), self._value.copy(), self._norm.copy(), len(self._rounds)
         reach = self._reach()
         least = np.full(len(self._disks), self._options.tolerance)
         np.fmax(least, self._options.relative_tolerance * self._first, out=least)
@@ -132,10 +131,10 @@ class NewtonSolver:
         for rows in loop_rows(self._disks.first_boundary, free):
             mean = np.einsum("rk,rk->r", self._seen.vertex_measure[rows.at], np.exp(1j * self._theta[rows.at]))
             back = (np.abs(mean) >= reach[rows.disk]) & self.converged[rows.disk]
-            self._theta[rows.at[back]] = kept[0][rows.at[back]]
-            self._norm[rows.disk[back]] = kept[1][rows.disk[back]]
             gone = rows.disk[back]
-            for number in range(kept[2], len(self._rounds)):
+            self._theta[rows.at[back]] = theta[rows.at[back]]
+            self._value[gone], self._norm[gone] = value[gone], norm[gone]
+            for number in range(made_before, len(self._rounds)):
                 made = self._rounds[number]
                 stay = ~np.isin(made.disk, gone)
                 self._rounds[number] = _Round(made.disk[stay], made.value[stay], made.norm[stay], made.length[stay])

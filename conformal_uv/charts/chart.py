@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +14,14 @@ from .chart_mapper import ShapeMap
 from .chart_meshes import ChartMesh
 from .packing import Placement
 
+if TYPE_CHECKING:
+    from .chart_list import ChartList
+
 __all__ = ["Chart"]
 
+Ints = NDArray[np.int64]
 
-@dataclass(frozen=True, eq=False)
+
 class Chart:
     """A part of the surface with a disk of its own.
 
@@ -45,6 +48,8 @@ class Chart:
         What was mended, cut, filled or left unused.
     placement : Placement
         Center and scale of the disk in the texture.
+    mesh : ChartMesh
+        What was solved on.
 
     Examples
     --------
@@ -54,22 +59,75 @@ class Chart:
     ('mapped', [0], [[0, 1, 2], [0, 2, 3]], 0.5)
     """
 
-    faces: NDArray[np.int64]
-    error: ConformalUVError | None
-    map: ShapeMap | None
-    vertices: NDArray[np.int64]
-    F: NDArray[np.int64]
-    polygon: NDArray[np.int64]
-    corner: NDArray[np.int64]
-    flipped: NDArray[np.int64]
-    notes: list[str]
-    placement: Placement
-    mesh: ChartMesh = field(repr=False)
+    def __init__(self, charts: ChartList, number: int) -> None:
+        self._all, self._number = charts, number
+
+    def __repr__(self) -> str:
+        return f"Chart(number={self._number}, faces={len(self.faces)}, status={self.status!r})"
+
+    @property
+    def faces(self) -> Ints:
+        """See Chart."""
+        return self._all.faces_of(self._number)
+
+    @property
+    def error(self) -> ConformalUVError | None:
+        """See Chart."""
+        return self._all.errors.get(self._number)
+
+    @cached_property
+    def map(self) -> ShapeMap | None:
+        """See Chart."""
+        return self._all.solutions.map(self._number)
+
+    @cached_property
+    def mesh(self) -> ChartMesh:
+        """See Chart."""
+        return self._all.meshes[self._number]
+
+    @property
+    def vertices(self) -> Ints:
+        """See Chart."""
+        return self.mesh.vertices
+
+    @property
+    def F(self) -> Ints:
+        """See Chart."""
+        return self.mesh.F
+
+    @property
+    def polygon(self) -> Ints:
+        """See Chart."""
+        return self._all.split.selected[self.mesh.polygon]
+
+    @property
+    def corner(self) -> Ints:
+        """See Chart."""
+        return self._all.split.corner[self.mesh.corner]
+
+    @cached_property
+    def flipped(self) -> Ints:
+        """See Chart; triangles that were solved on count."""
+        if self.map is None or not len(self.map.flipped):
+            return np.empty(0, dtype=np.int64)
+        split = self._all.split
+        polygon = np.unique(self.mesh.solved_polygon[self.map.flipped])
+        return split.selected[polygon[polygon < split.surface.real]]
+
+    @property
+    def notes(self) -> list[str]:
+        """See Chart."""
+        return self._all.notes_of(self._number)
+
+    @property
+    def placement(self) -> Placement:
+        """See Chart."""
+        return self._all.placed.of(self._number)
 
     @property
     def status(self) -> Literal["mapped", "failed"]:
         """Whether the chart was mapped."""
-        return "failed" if self.map is None else "mapped"
+        return "mapped" if self._all.mapped[self._number] else "failed"
 
     @property
     def scale(self) -> float:

@@ -10,13 +10,14 @@ from typing import overload
 import numpy as np
 from numpy.typing import NDArray
 
+from ..free import FreeMap
 from ..mesh.arrays import squared_units
 from ..mesh.geometry import triangle_geometry
 from ..operators.distortion import RATIOS, Distortion, distortion_of
 from ..operators.wirtinger import planar_sides, signed_double_areas
+from ..rectangle import RectangleMap
 from .chart import Chart
-from .chart_mapper import ShapeMap
-from .chart_meshes import ChartMesh, ChartMeshes
+from .chart_meshes import ChartMeshes
 from .chart_solutions import ChartSolutions
 from .packing import Placements
 from .splitting import Split
@@ -35,12 +36,14 @@ class ChartList(Sequence[Chart]):
         Which charts have a map.
     errors : dict of int to ConformalUVError
         Why the others have none.
-    solutions : ChartSolutions
+    split : Split
     meshes : ChartMeshes
+    solutions : ChartSolutions
+    placed : Placements
     """
 
     def __init__(self, split: Split, meshes: ChartMeshes, solutions: ChartSolutions, placed: Placements) -> None:
-        self._split, self.meshes, self.solutions, self._placed = split, meshes, solutions, placed
+        self.split, self.meshes, self.solutions, self.placed = split, meshes, solutions, placed
         self.mapped, self.errors = solutions.mapped, solutions.errors
         chart_of_polygon = split.surface.chart[: split.surface.real]
         self._faces = split.selected[np.argsort(chart_of_polygon, kind="stable")]
@@ -48,7 +51,7 @@ class ChartList(Sequence[Chart]):
         self._made: dict[int, Chart] = {}
 
     def __len__(self) -> int:
-        return self._split.count
+        return self.split.count
 
     @overload
     def __getitem__(self, index: int) -> Chart: ...
@@ -59,7 +62,7 @@ class ChartList(Sequence[Chart]):
             return [self[number] for number in range(*index.indices(len(self)))]
         number = range(len(self))[index]
         if number not in self._made:
-            self._made[number] = self._chart(number)
+            self._made[number] = Chart(self, number)
         return self._made[number]
 
     @property
@@ -70,7 +73,18 @@ class ChartList(Sequence[Chart]):
     @cached_property
     def corner(self) -> Ints:
         """The caller's polygon corner at each corner of these, (m, 3)."""
-        return self._split.corner[self.meshes.corner]
+        return self.split.corner[self.meshes.corner]
+
+    @cached_property
+    def polygon(self) -> Ints:
+        """The caller's polygon of each of these triangles, (m,)."""
+        return self.split.selected[self.meshes.polygon]
+
+    @property
+    def shaped(self) -> list[FreeMap | RectangleMap]:
+        """The maps to other shapes than disks."""
+        maps = [one.map for _, one in sorted(self.solutions.alone.items())]
+        return [found for found in maps if isinstance(found, FreeMap | RectangleMap)]
 
     def surface_areas(self) -> NDArray[np.float64]:
         """Area of each chart, (c,), in the units of the positions squared; infinite where doubles end."""
@@ -102,32 +116,20 @@ class ChartList(Sequence[Chart]):
         folded = self.solutions.folded
         return np.concatenate([np.empty(0, dtype=np.int64), *(self[k].flipped for k in numbers if folded[k])])
 
+    def faces_of(self, number: int) -> Ints:
+        """The caller's polygons of a chart."""
+        return self._faces[self._first[number] : self._first[number + 1]]
+
+    def notes_of(self, number: int) -> list[str]:
+        """What is to be said of a chart."""
+        return self.split.notes.get(number, []) + self.solutions.notes(number)
+
+    def notes(self, numbers: Ints) -> list[str]:
+        """What is to be said of some charts, one after the other."""
+        spoken = self.solutions.spoken | self.split.notes.keys()
+        return [note for number in numbers.tolist() if number in spoken for note in self.notes_of(number)]
+
     @property
-    def placed(self) -> Placements:
-        """Places of the charts, (c,)."""
-        return self._placed
-
-    def _chart(self, number: int) -> Chart:
-        split, meshes, mesh = self._split, self.meshes, self.meshes[number]
-        found = self.solutions.map(number)
-        polygon = meshes.polygon[meshes.first_face[number] : meshes.first_face[number + 1]]
-        return Chart(
-            faces=self._faces[self._first[number] : self._first[number + 1]],
-            error=self.errors.get(number),
-            map=found,
-            vertices=mesh.vertices,
-            F=mesh.F,
-            polygon=split.selected[polygon],
-            corner=split.corner[mesh.corner],
-            flipped=self._flipped(found, mesh),
-            notes=split.notes.get(number, []) + self.solutions.notes(number),
-            placement=self._placed.of(number),
-            mesh=mesh,
-        )
-
-    def _flipped(self, found: ShapeMap | None, mesh: ChartMesh) -> Ints:
-        """The caller's polygons with an inverted or collapsed triangle among those that were solved on."""
-        if found is None or not len(found.flipped):
-            return np.empty(0, dtype=np.int64)
-        polygon = np.unique(mesh.solved_polygon[found.flipped])
-        return self._split.selected[polygon[polygon < self._split.surface.real]]
+    def converged(self) -> NDArray[np.bool_]:
+        """Charts whose methods reached their tolerance, (c,)."""
+        return self.solutions.converged

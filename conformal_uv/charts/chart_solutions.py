@@ -73,6 +73,11 @@ class ChartSolutions:
         return self.alone[number].notes if number in self.alone else []
 
     @property
+    def spoken(self) -> set[int]:
+        """Charts of which something is to be said."""
+        return {number for number, one in self.alone.items() if one.notes}
+
+    @property
     def errors(self) -> dict[int, ConformalUVError]:
         """Why charts were not mapped."""
         return {number: one.error for number, one in sorted(self.alone.items()) if one.error is not None}
