@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from conformal_uv.disk.gauge import CentreGauge
 from conformal_uv.disk.harmonic_measure import CentredMeasure, _balanced, angles_of_measure
-from conformal_uv.disk.newton import _gaps, in_order
+from conformal_uv.disk.angle_steps import gaps, in_order
 from conformal_uv.mesh import PolygonMesh, Surface
 from conformal_uv.operators.laplacian import intrinsic_geometry
 from conformal_uv.optimize import augmented_lagrangian, truncated_cg
@@ -126,15 +126,15 @@ def test_a_step_keeps_the_order_of_the_boundary_and_moves_the_others_as_it_says(
     theta = 2.0 * np.pi / n * np.arange(n)
     step = np.zeros(n)
     step[100] = 3.0 * np.pi / n  # past its neighbour
-    gaps = _gaps(in_order(theta, step))
-    assert _gaps(theta + step).min() < 0.0 < gaps.min()
+    left = gaps(in_order(theta, step))
+    assert gaps(theta + step).min() < 0.0 < left.min()
     others = np.delete(np.arange(n), [99, 100])  # the gaps beside the vertex
-    np.testing.assert_allclose(gaps[others], 2.0 * np.pi / n, rtol=1e-3)
+    np.testing.assert_allclose(left[others], 2.0 * np.pi / n, rtol=1e-3)
     np.testing.assert_array_equal(in_order(theta, 0.1 * step), theta + 0.1 * step)
     for length in (1e-3, 1e-4):  # to first order it is the step, whatever its length
         np.testing.assert_allclose(in_order(theta, length * step), theta + length * step, atol=1e-18 / length)
     far = in_order(theta, 1e6 * step)
-    assert np.isfinite(far).all() and _gaps(far).min() >= 0.0 and _gaps(far).sum() == pytest.approx(2.0 * np.pi)
+    assert np.isfinite(far).all() and gaps(far).min() >= 0.0 and gaps(far).sum() == pytest.approx(2.0 * np.pi)
 
 
 def test_the_puncture_is_a_vertex_of_six_edges() -> None:

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, rfft
 
-from ..disk.newton import LEAST_FORCING, LINEAR_TO, SHORT_PART, SMALLEST_GAP
+from ..disk.angle_steps import gaps, in_order
+from ..disk.newton import LEAST_FORCING, SHORT_PART, SMALLEST_GAP
 from ..disk.preconditioner import FourierPreconditioner
 from ..optimize.line_search import HALVINGS, SUFFICIENT_DECREASE
 from .boundary_rows import EnergyRows, centred_rows
@@ -228,7 +229,7 @@ def _line_search(here: _Place, direction: Real) -> tuple[Real, _Place]:
     left, length = np.arange(len(slope)), 1.0
     for _ in range(HALVINGS):
         problem = here.problem.some(left)
-        there = _Place(problem, problem.restored(_in_order(here.energy.theta[left], length * direction[left])))
+        there = _Place(problem, problem.restored(in_order(here.energy.theta[left], length * direction[left])))
         change = there.energy.value - value[left]
         falls = (change <= SUFFICIENT_DECREASE * length * slope[left]) & (change < -noise[left])
         falls |= (np.abs(change) <= noise[left]) & (there.norm < here.norm[left])
@@ -243,26 +244,4 @@ def _line_search(here: _Place, direction: Real) -> tuple[Real, _Place]:
 
 def _apart(theta: Real) -> Bools:
     """Whether no two neighbours have come together, (r,)."""
-    return np.asarray((_gaps(theta) >= SMALLEST_GAP).all(axis=1))
-
-
-def _gaps(theta: Real) -> Real:
-    """Angle from each vertex to the next, (r, nb)."""
-    return np.diff(theta, append=theta[:, :1] + 2.0 * np.pi)
-
-
-def _in_order(theta: Real, step: Real) -> Real:
-    """As `disk.newton.in_order`, row by row."""
-    gaps = _gaps(theta)
-    change = np.roll(step, -1, axis=1) - step
-    least = (LINEAR_TO - 1.0) * np.maximum(gaps, 0.0)
-    out = theta + step
-    rows = np.flatnonzero((change < least).any(axis=1))
-    if not len(rows):
-        return out
-    gaps, change, least = gaps[rows], change[rows], least[rows]
-    beyond = np.maximum(change - least, -700.0 * gaps) / (LINEAR_TO * gaps)
-    kept = np.where(change < least, LINEAR_TO * gaps * np.exp(np.minimum(beyond, 0.0)), gaps + change)
-    kept *= (2.0 * np.pi / kept.sum(axis=1))[:, None]
-    out[rows, 1:] = out[rows, :1] + np.cumsum(kept, axis=1)[:, :-1]
-    return out
+    return np.asarray((gaps(theta) >= SMALLEST_GAP).all(axis=1))

@@ -13,18 +13,17 @@ from numpy.typing import NDArray
 from ..operators.dirichlet import DirichletProblem
 from ..optimize import NewtonStep, Status, line_search, log_fraction, truncated_cg
 from ..progress import Progress
+from .angle_steps import gaps, in_order
 from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge
 from .tangent import Tangent
 
-__all__ = ["NewtonResult", "in_order", "minimise_boundary_energy"]
+__all__ = ["NewtonResult", "minimise_boundary_energy"]
 
 Real = NDArray[np.float64]
 log = logging.getLogger(__name__)
 
 EPS = np.finfo(np.float64).eps
-TINY = np.finfo(np.float64).tiny
-LINEAR_TO = 0.2  # of the angle between two neighbours, to which a step closes it as it says; beyond, less and less
 SMALLEST_GAP = 1e-12  # radians; neighbours as near as that are linked
 LEAST_FORCING = 1e-3  # of the gradient is left by a direction; the energy is so nearly quadratic that this pays
 LAST_FORCING = 1e-5  # and by the last one,
@@ -72,7 +71,7 @@ def minimise_boundary_energy(
     """
     history: list[NewtonStep] = []
     energy = BoundaryEnergy(problem, gauge.restore(theta), minus_area=minus_area)
-    links = _gaps(energy.theta) < SMALLEST_GAP
+    links = gaps(energy.theta) < SMALLEST_GAP
     kept = np.full_like(links, links.any())  # on a crowded boundary gaps are mostly rounding, and links stay
     degrees = problem.Lbb.diagonal()
     rounding = 64.0 * float(EPS) * float(np.linalg.norm(degrees))
@@ -100,7 +99,7 @@ def minimise_boundary_energy(
             status = Status.CONVERGED if norm <= asked else Status.MAX_ITERATIONS
             break
         direction, cg_steps = _newton_direction(energy, gauge, tangent, tolerance, partial(progress, "newton", reached))
-        closed = ~links & (_gaps(energy.theta) < SMALLEST_GAP) & (np.roll(direction, -1) < direction)
+        closed = ~links & (gaps(energy.theta) < SMALLEST_GAP) & (np.roll(direction, -1) < direction)
         if closed.any() and (links | closed).sum() <= len(links) - 3:
             links = links | closed
             continue
@@ -152,30 +151,3 @@ def _line_search(
         return bool(np.linalg.norm(tangent_there.project(there.gradient)) < norm)
 
     return line_search(energy.value, slope, move, gradient_falls, length=1.0, noise=noise)
-
-
-def _gaps(theta: Real) -> Real:
-    """Angle from each vertex to the next, (nb,)."""
-    gap = np.roll(theta, -1) - theta
-    gap[-1] += 2.0 * np.pi
-    return gap
-
-
-def in_order(theta: Real, step: Real) -> Real:
-    """theta + step where that keeps the order of the angles, else a curve that begins so and never breaks it.
-
-    A gap that the step would close to less than a part of itself closes exponentially: twice differentiable but for
-    one point, and any step, however long, moves all other vertices as it says.
-    """
-    gaps = _gaps(theta)
-    change = np.roll(step, -1) - step
-    least = (LINEAR_TO - 1.0) * np.maximum(gaps, 0.0)
-    closing = change < least
-    if not closing.any():
-        return theta + step
-    kept = np.maximum(gaps + change, 0.0)
-    wide = closing & (gaps > TINY)
-    beyond = np.maximum(change[wide] - least[wide], -700.0 * gaps[wide]) / (LINEAR_TO * gaps[wide])
-    kept[wide] = LINEAR_TO * gaps[wide] * np.exp(beyond)
-    kept *= 2.0 * np.pi / kept.sum()
-    return np.asarray(theta[0] + step[0] + np.concatenate(([0.0], np.cumsum(kept)[:-1])))
