@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import conformal_uv as cuv
 from conformal_uv import samples
 from conformal_uv.disk import auto
-from conformal_uv.disk.relative_energy import least_shear
+from conformal_uv.disk.relative_energy import _least_ratio, least_shear
 from conformal_uv.operators.dirichlet import DirichletProblem
 from conformal_uv.operators.edge_laplacian import edge_laplacian
 from conformal_uv.optimize import Status
@@ -154,3 +154,21 @@ def test_newton_converges_where_the_boundary_crowds(load_scan) -> None:
     assert m.converged and m.status == "converged"
     assert m.history[-1].energy < 0.02248
     assert m.distortion.angle_mean < 1.9
+
+
+def test_the_slope_of_the_shear_is_that_of_its_gaps() -> None:
+    """The gradient that the first row tells, against differences of the ratio of two random positive forms."""
+    rng = np.random.default_rng(0)
+    above, below = (A @ A.conj().T for A in rng.normal(size=(2, 6, 6)) + 1j * rng.normal(size=(2, 6, 6)))
+    theta = np.sort(rng.uniform(0.0, 6.0, 6))
+    _, steps = _least_ratio(above, below, theta)
+
+    def log_ratio(logs: NDArray[np.float64]) -> float:
+        gaps = 2.0 * np.pi * np.exp(logs) / np.exp(logs).sum()
+        z = np.exp(1j * np.cumsum(np.append(0.0, gaps[:-1])))
+        return float(np.log(np.vdot(z, above @ z).real / np.vdot(z, below @ z).real))
+
+    logs, h = np.log(np.diff(theta, append=theta[0] + 2.0 * np.pi)), 1e-6
+    slope = [(log_ratio(logs + h * e) - log_ratio(logs - h * e)) / (2.0 * h) for e in np.eye(6)]
+    assert steps[0].gradient_norm / steps[0].energy == pytest.approx(np.linalg.norm(slope), rel=1e-7)
+    assert steps[-1].gradient_norm < 1e-6 * steps[0].gradient_norm

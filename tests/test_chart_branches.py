@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from meshes import annulus, disjoint, moebius_band, plate
 from polygon_shapes import block, grid, tube
 
 import conformal_uv as cuv
 from conformal_uv.charts.chart_progress import ChartProgress
 from conformal_uv.charts.cut_graph import OneChart, _cotree
 from conformal_uv.charts.packing import kept_margin, pack_disks
+from conformal_uv.charts.shelves import blocks_of_shelves
 
 
 def pair_of_polygons(length: list[float]) -> OneChart:
@@ -167,3 +169,37 @@ def test_a_bar_is_cut_from_end_to_end_wherever_its_numbers_begin() -> None:
         number = np.argsort(order)
         (chart,) = cuv.unwrap(V[order], number[Q], closed="cut", method="linear", place="disk").charts
         assert chart.notes == ["closed: cut open along 11 edges"]
+
+
+def test_a_one_sided_chart_is_cut_beside_charts_that_need_no_cut() -> None:
+    """The last polygon is of a plate: no tree of windings leads to it."""
+    u = cuv.unwrap(*disjoint(moebius_band(8), plate(2, 2)), orientation="mend", method="linear")
+    assert u.summary == "mapped 2 of 2 charts" and [len(chart.flipped) for chart in u.charts] == [0, 0]
+
+
+def test_blocks_of_shelves_are_as_large_as_what_lies_in_them() -> None:
+    """Boxes of very unequal sizes, named in no order of theirs."""
+    size = np.array([1 + 1j, 3 + 2j, 1 + 4j, 2 + 1j, 1 + 1j, 5 + 3j, 1 + 2j])
+    place, block, around = blocks_of_shelves(size, 5.0)
+    assert len(around) == 3
+    for number, found in enumerate(around):
+        far = (place + size)[block == number]
+        assert found == far.real.max() + 1j * far.imag.max()
+
+
+def test_the_outer_loop_of_a_chart_with_a_fault_may_be_named() -> None:
+    """A ring whose inner loop is chosen, and three triangles at one edge, whose loops are not known."""
+    V, F = annulus(8)
+    fin = [[16, 17, 18], [17, 16, 19], [16, 17, 20]]
+    W = np.concatenate((V, [[9, 0, 0], [10, 0, 0], [9, 1, 0], [9, -1, 0], [9, 0, 1.0]]))
+    u = cuv.unwrap(W, [*F.tolist(), *fin], outer_loop=[3, 18], place="disk")
+    assert [type(chart.error) for chart in u.charts] == [type(None), cuv.NonManifoldError]
+    assert sorted(u.charts[0].vertices[u.charts[0].map.boundary].tolist()) == list(range(8))
+
+
+def test_a_seam_to_a_vertex_beyond_the_last_is_refused() -> None:
+    """Of 12 vertices 0 and 17 are none of the edges, whatever number 0 x 12 + 17 is: that of the edge 1, 5."""
+    V, Q = grid(3, 2)
+    for seams in ([[0, 17]], [[1, 5], [0, 17]]):
+        with pytest.raises(cuv.OptionError, match=r"^1 seams are not edges of the mesh: \(0, 17\)"):
+            cuv.unwrap(V, Q, seams=seams)

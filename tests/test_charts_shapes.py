@@ -6,6 +6,7 @@ import developable
 import numpy as np
 import pytest
 from meshes import disjoint, plate
+from nasty_meshes import grid
 from numpy.typing import NDArray
 
 import conformal_uv as cuv
@@ -203,3 +204,22 @@ def test_no_chart_leaves_its_square_by_rounding(shape: str) -> None:
     V, F = mask(300)
     found = [cuv.unwrap(turned(V, degrees, 1), F, shape=shape, place="disk").uv for degrees in range(0, 60, 3)]
     assert max(np.abs(uv).max() for uv in found) == 1.0
+
+
+@pytest.mark.parametrize("degrees", [10, 30, 40, 50, 80, 130, 170])
+def test_a_flat_sheet_is_turned_to_the_square_by_less_than_an_eighth(degrees: int) -> None:
+    """Its straight sides lie along the square's, and what is up in the plane is up as nearly as that allows.
+
+    A corner is cut off and the boundary begins on that oblique side, so that the map by itself lies aslant.
+    """
+    V, F = grid(9, 5, 2.0, 1.3)
+    tip = int(np.flatnonzero(np.bincount(F.reshape(-1)) == 1)[0])
+    beside = np.isin(F, F[(F == tip).any(axis=1)]).sum(axis=1) == 2
+    F = np.concatenate((F[beside], F[~beside]))
+    F = F[(F != tip).all(axis=1)]
+    u = cuv.unwrap(turned(V, degrees, 2), F, shape="free", place="disk")
+    uv = np.zeros((len(V), 2))
+    uv[F.reshape(-1)] = u.uv
+    way = (uv[25] - uv[19]) @ [1, 1j]  # along the longer side
+    apart = np.degrees(np.angle(way * np.exp(-0.5j * np.pi * round(degrees / 90))))
+    assert abs(apart) < 1.0  # the oblique side counts, too

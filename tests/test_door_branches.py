@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from meshes import annulus
+from typer.testing import CliRunner
 
 import conformal_uv as cuv
 from conformal_uv import PolygonMesh
+from conformal_uv.cli.app import app
+from conformal_uv.cli.figure import _joined
 from conformal_uv.cli.outputs import Outputs
 from conformal_uv.cli.seams import read_seams
 from conformal_uv.console import stages
@@ -70,3 +75,25 @@ def test_all_outputs_that_failed_are_told(tmp_path: Path) -> None:
     ):
         outputs.write(s, {"a": 1}, failing, failing)
     assert json.loads((tmp_path / "c.json").read_text()) == {"a": 1}
+
+
+def test_the_report_measures_boundary_loops_in_the_units_of_the_file(tmp_path: Path) -> None:
+    """A ring of 40 sides, its outer loop of radius 200."""
+    V, F = annulus(40)
+    np.savez(tmp_path / "ring.npz", V=100.0 * V, F=F)
+    done = CliRunner().invoke(app, ["report", str(tmp_path / "ring.npz"), "--json", str(tmp_path / "told.json")])
+    assert done.exit_code == 0, done.output
+    lengths = [loop["length"] for loop in json.loads((tmp_path / "told.json").read_text())["boundary_loops"]]
+    side = 2.0 * np.sin(np.pi / 40)
+    assert sorted(lengths) == pytest.approx([100.0 * 40 * side, 200.0 * 40 * side], rel=1e-12)
+
+
+def test_flipped_faces_of_every_chart_are_red_in_the_picture() -> None:
+    """They are numbered through all charts, one after the other."""
+    V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]
+    F = [[0, 1, 2], [1, 3, 2]]
+    folded = cuv.distortion(V, F, [[0, 0], [1, 0], [0, 1], [0.1, 0.1]])
+    charts = [SimpleNamespace(distortion=folded) for _ in range(3)]
+    joined = _joined([charts[0], SimpleNamespace(distortion=None), *charts[1:]])
+    assert folded.flipped.tolist() == [1] and joined.flipped.tolist() == [1, 3, 5]
+    assert len(joined.angle_error) == 6

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from meshes import scattered_disk
 from nasty_meshes import EMBEDDED, grid
 from numpy.typing import NDArray
 
@@ -95,6 +96,22 @@ def test_an_ear_on_an_arc_that_rounding_flattens_is_sharpened_within_the_circle(
     assert np.abs(np.abs(sharp[1:]) - 1.0).max() <= 1e-12
 
 
+def test_ears_that_lean_on_ears_are_sharpened_deeper_than_those() -> None:
+    """Three on each arc, the second with the first below it and the third with the second: none stays folded."""
+    starts = 2.0 * np.pi * np.arange(50) / 50
+    theta = starts[:, None] + [0.0, 1e-9, 2.3e-9, 3.1e-9, 4.2e-9]
+    z = np.concatenate(([0.0], np.exp(1j * theta.reshape(-1))))
+    first = 1 + 5 * np.arange(50)
+    ears = np.concatenate([np.stack((first, first + k, first + k + 1)) for k in (1, 2, 3)], axis=1)
+    after = np.roll(first, -1)
+    inner = np.concatenate((np.stack((0 * first, first, first + 4)), np.stack((0 * first, first + 4, after))), axis=1)
+    corners = np.concatenate((ears, inner), axis=1).astype(np.int32)
+    assert len(flipped_faces(z, corners)) > 20
+    sharp = with_sharp_ears(z, corners, np.arange(1, len(z)), np.arange(ears.shape[1]))
+    assert len(flipped_faces(sharp, corners)) == 0
+    assert np.abs(np.abs(sharp[1:]) - 1.0).max() <= 1e-12
+
+
 def test_points_that_rounded_to_one_are_told_apart_and_the_others_stay() -> None:
     theta = np.array([0.0, 0.5, 0.5, 0.5, 1.0, 2.0, 2.0, 4.0, 5.0])
     z: NDArray[np.complex128] = np.exp(1j * theta)
@@ -115,3 +132,17 @@ def test_center_and_boundary_vertex_keep_their_places_where_something_was_unfold
     assert_embedded(m)
     np.testing.assert_array_equal(m.uv[rim], [1.0, 0.0])
     assert m.center is None or (m.uv[middle] == 0.0).all()
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_center_is_told_where_it_is_at_0_only(seed: int) -> None:
+    """Bumps so high that unfolding moves some of the centers away."""
+    V, F = scattered_disk(40, 16, seed)
+    V[:, 2] = 2.0 * np.sin(3.0 * V[:, 0] + 5.0 * V[:, 1])
+    mapper = cuv.DiskMapper(V, F)
+    told = []
+    for center in range(20, 56, 7):
+        m = mapper.map(method="linear", center=center, repair="always")
+        assert m.center == (center if (m.uv[center] == 0.0).all() else None)
+        told.append(m.center)
+    assert None in told and len(set(told)) > 1

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from developable import DEVELOPABLE, cross, sector_fan
-from meshes import scattered_disk, wheel
+from meshes import plate, scattered_disk, wheel
 from nasty_meshes import EMBEDDED, REFUSED
 
 import conformal_uv as cuv
@@ -221,6 +221,19 @@ def test_given_angles_outlive_a_repair() -> None:
     m = cuv.free_map(V, F, boundary_angles=angles, repair="always")
     assert 0 <= len(m.flipped) < len(raw.flipped)
     np.testing.assert_array_equal(m.uv[loop], raw.uv[loop])
+
+
+def test_given_angles_that_fold_an_ear_are_kept() -> None:
+    """No repair of the inside can mend the ear, and one that moved its tip would change the angles."""
+    V, F = plate(5, 5)
+    loop = cuv.DiskMapper(V, F).boundary
+    tip = int(np.flatnonzero(np.bincount(F.reshape(-1))[loop] == 1)[0])
+    angles = np.full(len(loop), (2 * np.pi + 0.5) / (len(loop) - 1))
+    angles[tip] = -0.5
+    m = cuv.free_map(V, F, boundary_angles=angles, repair="always")
+    steps = np.diff(m.uv[loop] @ [1, 1j], append=m.uv[loop[0]] @ [1, 1j])
+    np.testing.assert_allclose(np.angle(steps / np.roll(steps, 1)), angles, atol=1e-9)
+    assert m.flipped.tolist() == np.flatnonzero((F == loop[tip]).any(axis=1)).tolist()
 
 
 @pytest.mark.parametrize(("degrees", "crosses"), [(200.0, False), (350.0, False), (400.0, True)])

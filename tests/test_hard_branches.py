@@ -47,6 +47,22 @@ def test_penalty_rises_where_constraints_do_not_fall_by_half_each_update() -> No
     assert rho.tolist() == [1.0, 2.0, 2.0, 4.0, 4.0] and not converged
 
 
+class Patient(Scripted):
+    """One whose KKT residual falls by a factor of 1,000 each round."""
+
+    def kkt_residual(self, x, y) -> float:
+        return 1e-3 ** float(self.round)
+
+
+@pytest.mark.parametrize(("most", "rounds", "done"), [(9, 4, True), (3, 3, False)])
+def test_constraints_that_hold_are_no_solution_yet(most: int, rounds: int, done: bool) -> None:
+    """The multipliers belong to it: it ends where the KKT residual is below 1e-8 as well."""
+    _, rows, converged = augmented_lagrangian(
+        Patient([1e-9] * 9), np.zeros(1), max_iterations=most, progress=Progress()
+    )
+    assert (len(rows), converged) == (rounds, done)
+
+
 @pytest.mark.parametrize("lengths", [(100000.0, 99999.99979, 0.00029), (1.0, 1.0, 1e-12), (3.0, 1.5, 1.5000000001)])
 def test_areas_of_needles_from_lengths(lengths: tuple[float, float, float]) -> None:
     """Heron's formula in Kahan's order, against decimals; the first triangle is one of his."""

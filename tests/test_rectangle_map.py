@@ -276,6 +276,19 @@ def test_faces_on_one_side_are_told_apart() -> None:
     assert m.flipped.tolist() == m.squashed.tolist() == [50]
 
 
+@pytest.mark.parametrize("end", [False, True])
+@pytest.mark.parametrize("side", range(4))
+def test_a_corner_lies_on_both_of_its_sides(side: int, end: bool) -> None:
+    """An ear beside it, on either of them."""
+    V, F = grid(6, 6, 1.0, 1.0)
+    corners, step = [0, 5, 35, 30], [1, 6, -1, -6][side]
+    a = corners[(side + 1) % 4] - step if end else corners[side]
+    outward = np.array([[0, -1, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0]])[side]
+    V = np.vstack((V, 0.5 * (V[a] + V[a + step]) + 0.1 * outward))
+    m = cuv.rectangle_map(V, np.vstack((F, [a, 36, a + step])), corners)
+    assert m.flipped.tolist() == m.squashed.tolist() == [50]
+
+
 def test_where_nothing_is_certain() -> None:
     V, F = samples.mask(400)
     m = cuv.rectangle_map(*flattened(V, F, 5, 0.0))

@@ -63,6 +63,14 @@ def test_vertices_of_several_charts_count_once() -> None:
     assert numbers.vertices == len(V) and numbers.triangles == len(F)
 
 
+def test_charts_that_reach_out_of_the_square_have_no_coverage() -> None:
+    """On whichever of its sides."""
+    result = cuv.unwrap(*TWO, method="linear")
+    assert unwrap_numbers(result).coverage > 0.0
+    for way in ([0.5, 0.0], [0.0, 0.5], [-0.5, 0.0], [0.0, -0.5]):
+        assert unwrap_numbers(result, uv=result.uv + way).coverage is None
+
+
 def test_some_charts_and_none() -> None:
     result = cuv.unwrap(*TWO, method="linear")
     one = unwrap_numbers(result, chosen=np.array([True, False]))

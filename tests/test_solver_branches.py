@@ -6,16 +6,23 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from meshes import plate
+from meshes import plate, scattered_disk
+from numpy.typing import NDArray
 
 from conformal_uv.linear.backends import choose_backend, linear_solver
 from conformal_uv.linear.linear_system import LowerTriangle
 from conformal_uv.mesh import Surface
 from conformal_uv.mesh.arrays import on_one_line
-from conformal_uv.mesh.large_polygons import _clean_ears
-from conformal_uv.mesh.triangulate import _ear_quality
+from conformal_uv.mesh.large_polygons import _clean_ears, cut_large_polygon
+from conformal_uv.mesh.polygons import PolygonMesh
+from conformal_uv.mesh.triangulate import _ear_quality, triangulate
 from conformal_uv.operators.edge_laplacian import LEAST, _sorted
-from conformal_uv.operators.mean_value import LEAST_RATIO, positive_mean_value_matrix
+from conformal_uv.operators.mean_value import (
+    LEAST_RATIO,
+    NeighbourMeans,
+    positive_mean_value_matrix,
+    surface_mean_value_matrix,
+)
 from conformal_uv.operators.mollification import ROOM, mollified
 from conformal_uv.operators.orientation_sign import orientation_signs, outward_signs
 from conformal_uv.optimize import line_search, log_fraction
@@ -152,3 +159,40 @@ def test_the_tip_of_a_cap_is_in_the_middle_of_its_loop() -> None:
     assert capped.n == surface.n + 2 and not capped.loops and capped.genus == 0
     for tip, loop in zip(capped.V[surface.n :], surface.loops, strict=True):
         np.testing.assert_allclose(tip, surface.V[loop].mean(axis=0), rtol=1e-15)
+
+
+def test_a_flat_surface_is_the_mean_of_its_neighbours_by_its_mean_values() -> None:
+    """Whatever its triangles: mean value coordinates reproduce linear functions (Floater 2003)."""
+    V, F = scattered_disk(60, 20, seed=1)
+    surface = Surface.from_arrays(V, F)
+    inside = np.setdiff1d(np.arange(len(V)), surface.loops[0])
+    z = V[:, :2] @ [1.0, 1.0j]
+    given = z.copy()
+    given[inside] = 0.0
+    found = NeighbourMeans(surface_mean_value_matrix(surface), inside).placed(given)
+    np.testing.assert_allclose(found, z, atol=1e-12)
+
+
+def signed_areas(P: NDArray[np.float64], F: NDArray[np.int64]) -> NDArray[np.float64]:
+    a, b, c = (P[corner] for corner in F.T)
+    return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+
+def test_no_ear_of_a_large_polygon_is_cut_along_a_corner() -> None:
+    """Teeth whose tips lie exactly on the diagonals of ears: what is left would have no triangulation with areas."""
+    x = np.arange(201.0)
+    odd = np.arange(201) % 2 == 1
+    low, high = np.column_stack((x, np.where(odd, -1.0, 0.0))), np.column_stack((x, np.where(odd, 0.0, 3.0)))
+    P = np.concatenate((low, high[::-1]))
+    F = cut_large_polygon(P)
+    assert F is not None
+    areas = signed_areas(P, F)
+    assert areas.min() > 0.1 and areas.sum() == pytest.approx(400.0)
+
+
+def test_an_ear_is_not_cut_where_it_would_leave_a_sliver() -> None:
+    """A tip one part in 10^9 beside the diagonal of the ear with the best angles."""
+    P = np.array([(-2, 0), (0, -2), (2, 0), (2, 3), (0.5, 3), (0, 1e-9), (-0.5, 3), (-2, 3.0)])
+    mesh = PolygonMesh(np.column_stack((P, np.zeros(8))), np.arange(8), np.array([0, 8]))
+    areas = signed_areas(P, triangulate(mesh)[0])
+    assert areas.min() > 1.0 and areas.sum() == pytest.approx(14.5)

@@ -115,13 +115,17 @@ class _Flipper:
         return (h + np.int32(2 * self.m)) % np.int32(3 * self.m)
 
     def not_delaunay(self, h: Index) -> tuple[Index, Real]:
-        """Those of the half-edges whose edge can be flipped and has cot a + cot b < 0, and the sums."""
+        """Those of the half-edges whose edge has cot a + cot b < 0, and the sums.
+
+        An edge with one face on both of its sides is none of them: two angles of one triangle sum to less than pi, and
+        rounding, which is monotone, makes no sum of their cotangents negative.
+        """
         cot = self.cot.reshape(-1)
         t = self.twin[h]
         here, there = cot[self._across(h)], cot[self._across(t)]
         total = here + there
         tolerance = 8.0 * EPS * (np.abs(here) + np.abs(there) + 1.0)
-        bad = (total < -tolerance) & (h % self.m != t % self.m)
+        bad = total < -tolerance
         return h[bad], total[bad]
 
     def independent(self, h: Index, sums: Real) -> NDArray[np.bool_]:
