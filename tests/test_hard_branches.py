@@ -9,9 +9,9 @@ import pytest
 from meshes_closed import icosphere
 from scipy.spatial.transform import Rotation
 
+from conformal_uv.disk.angle_steps import gaps, in_order
 from conformal_uv.disk.gauge import CentreGauge
 from conformal_uv.disk.harmonic_measure import CentredMeasure, _balanced, angles_of_measure
-from conformal_uv.disk.angle_steps import gaps, in_order
 from conformal_uv.mesh import PolygonMesh, Surface
 from conformal_uv.operators.laplacian import intrinsic_geometry
 from conformal_uv.optimize import augmented_lagrangian, truncated_cg

@@ -18,8 +18,9 @@ from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.wirtinger import planar_sides, unfolded_sides, wirtinger
 from ..optimize import NewtonStep
+from .shear_ratio import least_ratios
 
-__all__ = ["few_enough", "least_shear"]
+__all__ = ["area_form", "few_enough", "least_shear"]
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -27,8 +28,6 @@ Complex = NDArray[np.complex128]
 FEW = 12  # boundary vertices
 ROUNDS = 4  # of weights
 SETTLED = 1e-4  # radians, by which the angles change from one round to the next
-TOLERANCE = 1e-8  # of the gradient of the ratio
-LEAST_AREA = 1e-12  # of the image, with the forms scaled to 1
 
 
 def few_enough(surface: Surface, problem: DirichletProblem) -> bool:
@@ -45,7 +44,7 @@ def least_shear(surface: Surface, problem: DirichletProblem, theta: Real) -> lis
     slopes, flux, areas = _slopes(surface, problem)
     found, weights = [], areas
     if problem.laplacian.corners is not None:  # not the faces' own energy
-        found.append(_least_ratio(flux, _area_form(len(theta)), theta))
+        found.append(_least_ratio(flux, area_form(len(theta)), theta))
     for number in range(ROUNDS):
         above, below = (slopes.T * weights) @ slopes.conj(), (slopes.T.conj() * weights) @ slopes
         angles, steps = _least_ratio(above, below, theta)
@@ -79,57 +78,22 @@ def _slopes(surface: Surface, problem: DirichletProblem) -> tuple[Complex, Real,
     return slopes, 0.5 * (flux + flux.T), 0.5 * double_area
 
 
-def _area_form(count: int) -> Complex:
+def area_form(count: int) -> Complex:
     """``z* form z`` is the area of the polygon."""
     ahead = np.roll(np.eye(count), 1, axis=1)
     return np.asarray((ahead - ahead.T) / 4j)
 
 
 def _least_ratio(above: Complex | Real, below: Complex, theta: Real) -> tuple[Real, tuple[NewtonStep, ...]]:
-    """Angles, near those given and in their order, of the least ``z* above z / z* below z``, z = exp(i theta).
-
-    The gaps between neighbours are the variables, as exponentials, so that their order stays. With a row for each
-    iterate, the ratio in the energy's place.
-    """
-    from scipy.optimize import minimize  # slow to load, and seldom needed
-
-    sizes = float(np.abs(above).max()), float(np.abs(below).max())
-    if not (0.0 < sizes[0] < np.inf and 0.0 < sizes[1] < np.inf):  # lost to overflow, on needles
+    """Angles of the least ``z* above z / z* below z``, as `least_ratios`; a row for each iterate, the ratio in the
+    energy's place."""
+    found = least_ratios(above[None].astype(np.complex128), below[None], theta[None])
+    if np.isnan(found.value[0]):
         return theta, ()
-    above, below = above / sizes[0], below / sizes[1]
-
-    def ratio(logs: Real) -> tuple[float, Real]:
-        gaps = _gaps(logs)
-        z = np.exp(1j * _angles(gaps))
-        pulls = above @ z, below @ z
-        high, low = (float(np.real(np.vdot(z, pull))) for pull in pulls)
-        if not low > LEAST_AREA:
-            return np.inf, np.zeros_like(gaps)
-        one, other = (2.0 * np.imag(np.conj(z) * pull) for pull in pulls)
-        along = (one - high / low * other) / low
-        beyond = along.sum() - np.cumsum(along)  # of the vertices that a gap moves
-        return high / low, gaps * (beyond - float(beyond @ gaps) / (2.0 * np.pi))
-
-    start = np.log(np.maximum(np.diff(theta, append=theta[0] + 2.0 * np.pi), 1e-12))
-    value, slope = ratio(start)
-    if not np.isfinite(value):
-        return theta, ()
-    rows = [NewtonStep(value, float(np.linalg.norm(slope)), 0, 1.0)]
-
-    def keep(logs: Real) -> None:
-        value, slope = ratio(logs)
-        rows.append(NewtonStep(value, float(np.linalg.norm(slope)), 0, 1.0))
-
-    found = minimize(ratio, start, jac=True, method="BFGS", options={"gtol": TOLERANCE}, callback=keep)
-    rows[-1] = rows[-1]._replace(step_length=0.0)
-    return _angles(_gaps(found.x)), tuple(rows)
-
-
-def _gaps(logs: Real) -> Real:
-    """Gaps (nb,) in proportion to the exponentials, once around."""
-    grown = np.exp(logs - logs.max())
-    return np.asarray(2.0 * np.pi * grown / grown.sum())
-
-
-def _angles(gaps: Real) -> Real:
-    return np.concatenate(([0.0], np.cumsum(gaps)[:-1]))
+    made = [
+        NewtonStep(*(float(part[0]) for part in (s.value, s.norm)), 0, float(s.length[0]))
+        for s in found.steps
+        if len(s.row)
+    ]
+    last = NewtonStep(float(found.value[0]), float(found.norm[0]), 0, 0.0)
+    return found.theta[0], (*made, last)
