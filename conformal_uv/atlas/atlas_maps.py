@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,18 +12,42 @@ from ..disk import DiskMap
 from ..mesh.geometry import TriangleGeometry
 from ..mesh.halfedges import HalfEdges
 from ..mesh.surface import Surface
-from ..operators.dirichlet import DirichletProblem
 from ..operators.wirtinger import planar_sides, unfolded_sides
 from ..optimize import NewtonStep, Status
 from ..options import DiskOptions, Laplacian, Method
 from .disks import Disks, neighbours
-from .solutions import NewtonSolver
 
-__all__ = ["AtlasMaps"]
+__all__ = ["AtlasMaps", "Candidate"]
 
+Ints = NDArray[np.int64]
 Real = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Complex = NDArray[np.complex128]
+
+
+class Candidate(NamedTuple):
+    """Solutions of c disks by one method.
+
+    Attributes
+    ----------
+    z : (n,) complex128
+        Positions of all vertices, placed but not turned.
+    valid : (c,) bool
+        The disks that have one.
+    method, status
+        As in `DiskMap`.
+    history : callable
+        The iterates of one of the disks.
+    relative : bool
+        Whether the shear was minimised.
+    """
+
+    z: Complex
+    valid: Bools
+    method: Method
+    status: Status
+    history: Callable[[int], tuple[NewtonStep, ...]]
+    relative: bool = False
 
 
 class AtlasMaps:
@@ -33,8 +60,6 @@ class AtlasMaps:
         Positions of all vertices.
     good : (c,) bool
         The disks that were mapped; what is told of the others means nothing.
-    by_newton : (c,) bool
-        Whose maps Newton's method has made, not the linear one.
     conformal, dirichlet : (c,) float64
         Energies.
     """
@@ -44,25 +69,21 @@ class AtlasMaps:
         disks: Disks,
         z: Complex,
         good: Bools,
-        by_newton: Bools,
-        newton: NewtonSolver | None,
+        candidates: Sequence[Candidate],
+        choice: Ints,
         options: DiskOptions,
-        problem: DirichletProblem,
+        backend: str,
         intrinsic: Bools,
     ) -> None:
-        self.disks, self.z, self.good, self.by_newton = disks, z, good, by_newton
-        self._newton, self._options, self._intrinsic, self._backend = newton, options, intrinsic, problem.backend
+        self.disks, self.z, self.good = disks, z, good
+        self._candidates, self._choice, self._options = candidates, choice, options
+        self._backend, self._intrinsic = backend, intrinsic
         self.conformal, self.dirichlet = _energies(disks, z)
 
     def __getitem__(self, disk: int) -> DiskMap:
         """The map of one of them."""
-        disks, options = self.disks, self._options
-        by_newton = bool(self.by_newton[disk])
+        disks, chosen = self.disks, self._candidates[self._choice[disk]]
         surface = _surface(disks, disk)
-        history: tuple[NewtonStep, ...] = ()
-        status = Status.ANGLES if options.method is Method.AUTO else Status.DIRECT
-        if by_newton and self._newton is not None:
-            history, status = self._newton.history(disk), Status.CONVERGED
         none = np.empty(0, dtype=np.int64)
         own = self.z[disks.first_vertex[disk] : disks.first_vertex[disk + 1]]
         return DiskMap(
@@ -73,11 +94,11 @@ class AtlasMaps:
             flipped=none,
             lost_to_double=none,
             converged=True,
-            history=history,
+            history=chosen.history(disk),
             repair=None,
-            method=Method.NEWTON if by_newton else Method.LINEAR,
-            status=status,
-            objective=str(options.objective),
+            method=chosen.method,
+            status=chosen.status,
+            objective="relative" if chosen.relative else str(self._options.objective),
             laplacian=Laplacian.INTRINSIC_DELAUNAY if self._intrinsic[disk] else Laplacian.COTAN,
             center=None,
             pins=None,

@@ -11,14 +11,16 @@ from ..disk.auto import GOOD
 from ..disk.placement import inside_disk
 from ..disk.relative_energy import FEW
 from ..operators.dirichlet import DirichletProblem
+from ..optimize import NewtonStep, Status
 from ..optimize.choice import ALIKE
 from ..options import Balance, DiskOptions, Laplacian, Method, Objective
 from ..progress import Progress
-from .atlas_maps import AtlasMaps
+from .atlas_maps import AtlasMaps, Candidate
 from .block_laplacian import block_laplacian
 from .disks import Disks
 from .finish import angle_means, placed, plain_maps
 from .measures import Measures, measures
+from .shear import ShearAngles, least_shears
 from .solutions import NewtonSolver, linear_positions
 
 __all__ = ["DiskAtlas", "Turns", "takes"]
@@ -72,29 +74,48 @@ class DiskAtlas:
         )
         progress("linear", 0.0)
         self._measures: Measures = measures(disks, self._problem, backend)
-        self._newton: tuple[tuple[object, ...], NewtonSolver] | None = None
+        self._newton: tuple[tuple[object, ...], tuple[NewtonSolver, list[ShearAngles]]] | None = None
 
     def maps(self, options: DiskOptions, turns: Turns | None, progress: Progress) -> AtlasMaps:
         """The maps with such options as `takes` says, every disk turned by what `turns` says of the positions (n,)."""
-        progress("linear", 0.0)
         disks, seen = self.disks, self._measures
-        good = seen.found.copy()
-        linear = linear_positions(disks, self._problem, seen) if options.method is not Method.NEWTON else None
-        newton = None
+        every = np.ones(len(disks), dtype=bool)
+        good, candidates = seen.found.copy(), list[Candidate]()
+        auto = options.method is Method.AUTO
+        if options.method is not Method.NEWTON:
+            progress("linear", 0.0)
+            z = placed(disks, linear_positions(disks, self._problem, seen))
+            candidates.append(Candidate(z, every, Method.LINEAR, Status.ANGLES if auto else Status.DIRECT, _untold))
         if options.method is not Method.LINEAR:
             progress("newton", 0.0)
-            newton = self._newton_solutions(options)
+            newton, shears = self._newton_solutions(options)
             good &= newton.converged
-            if options.method is Method.AUTO:
-                good &= ~self._want_all_angles(newton.z)
+            z = placed(disks, newton.z)
+            candidates.append(Candidate(z, every, Method.NEWTON, Status.CONVERGED, newton.history))
+            for shear in shears if auto else ():
+                if shear.found.any():
+                    z = placed(disks, self._problem.extend(np.exp(1j * shear.theta)))
+                    candidates.append(Candidate(z, shear.found, Method.NEWTON, Status.CONVERGED, shear.history, True))
         progress("placement", 0.0)
-        z, by_newton = self._better(linear, None if newton is None else newton.z, turns, good)
-        return AtlasMaps(disks, z, good, by_newton, newton, options, self._problem, self._blocks.intrinsic)
+        choice = self._best(candidates, good)
+        z = candidates[0].z.copy()
+        for number, candidate in enumerate(candidates[1:], 1):
+            own = (choice == number)[disks.of_vertex]
+            z[own] = candidate.z[own]
+        if turns is not None:
+            z = inside_disk(z * turns(z)[disks.of_vertex])
+            good &= plain_maps(disks, z)
+        return AtlasMaps(disks, z, good, candidates, choice, options, self._problem.backend, self._blocks.intrinsic)
 
-    def _newton_solutions(self, options: DiskOptions) -> NewtonSolver:
-        key = options.tolerance, options.relative_tolerance, options.max_iterations
+    def _newton_solutions(self, options: DiskOptions) -> tuple[NewtonSolver, list[ShearAngles]]:
+        key = options.tolerance, options.relative_tolerance, options.max_iterations, options.method
         if self._newton is None or self._newton[0] != key:
-            self._newton = key, NewtonSolver(self.disks, self._problem, self._measures, options)
+            newton = NewtonSolver(self.disks, self._problem, self._measures, options)
+            shears: list[ShearAngles] = []
+            if options.method is Method.AUTO:
+                few = np.flatnonzero(self._want_all_angles(newton.z) & newton.converged)
+                shears = least_shears(self.disks, self._problem, newton.S, self._blocks.intrinsic, newton.theta, few)
+            self._newton = key, (newton, shears)
         return self._newton[1]
 
     def _want_all_angles(self, z: Complex) -> Bools:
@@ -104,20 +125,20 @@ class DiskAtlas:
         few = (count <= FEW) & (faces >= 2 * count)
         return few & (angle_means(disks, z) >= GOOD) if few.any() else few
 
-    def _better(
-        self, linear: Complex | None, newton: Complex | None, turns: Turns | None, good: Bools
-    ) -> tuple[Complex, Bools]:
-        """Positions of the better solutions, and which disks have Newton's; what is not plain is struck from `good`."""
+    def _best(self, candidates: list[Candidate], good: Bools) -> Ints:
+        """The place (c,) of each disk's best map among the candidates; what is not plain is struck from `good`.
+
+        As `optimize.choice.best_map` of maps without folds.
+        """
         disks = self.disks
-        candidates = [placed(disks, z) for z in (linear, newton) if z is not None]
-        for z in candidates:
-            good &= plain_maps(disks, z)
-        by_newton = np.full(len(disks), newton is not None)
-        if len(candidates) == 2:
-            before, after = (angle_means(disks, z) for z in candidates)
-            by_newton = before > after + ALIKE
-        z = np.where(by_newton[disks.of_vertex], candidates[-1], candidates[0])
-        if turns is not None:
-            z = inside_disk(z * turns(z)[disks.of_vertex])
-            good &= plain_maps(disks, z)
-        return z, by_newton
+        for candidate in candidates:
+            good &= plain_maps(disks, candidate.z)
+        if len(candidates) == 1:
+            return np.zeros(len(disks), dtype=np.int64)
+        means = np.stack([np.where(one.valid, angle_means(disks, one.z), np.inf) for one in candidates])
+        return np.argmax(means <= means.min(axis=0) + ALIKE, axis=0)
+
+
+def _untold(disk: int) -> tuple[NewtonStep, ...]:
+    """The linear method does not iterate."""
+    return ()

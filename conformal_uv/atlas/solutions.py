@@ -51,21 +51,24 @@ class NewtonSolver:
         Positions of all vertices.
     converged : (c,) bool
         What is told of the others means nothing.
+    S : FluxMatrices
+    theta : (nb,) float64
+        Angles of all boundary vertices.
     """
 
     def __init__(self, disks: Disks, problem: DirichletProblem, seen: Measures, options: DiskOptions) -> None:
         count = len(disks)
         self._disks, self._seen, self._options = disks, seen, options
-        self._S = FluxMatrices(problem, disks.first_boundary)
-        self._theta, self._rounds = seen.theta.copy(), list[_Round]()
+        self.S = FluxMatrices(problem, disks.first_boundary)
+        self.theta, self._rounds = seen.theta.copy(), list[_Round]()
         self.converged = np.zeros(count, dtype=bool)
         self._value, self._norm, self._first = np.full((3, count), np.nan)
         self._minimise(np.flatnonzero(seen.found), options.tolerance, held=True)
-        self.z = problem.extend(np.exp(1j * self._theta))
+        self.z = problem.extend(np.exp(1j * self.theta))
         free = self._worth_releasing()
         if len(free):
             self._release(free)
-            self.z = problem.extend(np.exp(1j * self._theta))
+            self.z = problem.extend(np.exp(1j * self.theta))
 
     def history(self, disk: int) -> tuple[NewtonStep, ...]:
         """A row for each iterate; directions are solved for without conjugate gradients."""
@@ -80,15 +83,15 @@ class NewtonSolver:
         """Of the chosen disks, from where they are; `tolerance` is of all disks or of each (c,)."""
         for rows in loop_rows(self._disks.first_boundary, chosen):
             found = minimised_rows(
-                self._S.of(rows),
-                self._theta[rows.at],
+                self.S.of(rows),
+                self.theta[rows.at],
                 self._seen.vertex_measure[rows.at],
                 held=held,
                 tolerance=tolerance if isinstance(tolerance, float) else tolerance[rows.disk],
                 relative_tolerance=self._options.relative_tolerance if held else 0.0,
                 max_iterations=self._options.max_iterations,
             )
-            self._theta[rows.at] = found.theta
+            self.theta[rows.at] = found.theta
             self.converged[rows.disk] = found.converged
             self._value[rows.disk], self._norm[rows.disk] = found.value, found.norm
             if held:
@@ -100,7 +103,7 @@ class NewtonSolver:
         reach = self._reach()
         found = [np.empty(0, dtype=np.int64)]
         for rows in loop_rows(self._disks.first_boundary, np.flatnonzero(self.converged & (reach > 0.0))):
-            energy = EnergyRows(self._S.of(rows), self._theta[rows.at])
+            energy = EnergyRows(self.S.of(rows), self.theta[rows.at])
             moves, worth, far = energy.moebius_moves(), WORTH_WHILE * energy.value, reach[rows.disk]
             slope = np.einsum("rkc,rk->rc", moves, energy.gradient)
             curvature = moves.transpose(0, 2, 1) @ energy.hessian() @ moves
@@ -123,16 +126,16 @@ class NewtonSolver:
 
     def _release(self, free: Ints) -> None:
         """Minimise without holding the centres, where that keeps them in their cells."""
-        theta, value, norm, made_before = self._theta.copy(), self._value.copy(), self._norm.copy(), len(self._rounds)
+        theta, value, norm, made_before = self.theta.copy(), self._value.copy(), self._norm.copy(), len(self._rounds)
         reach = self._reach()
         least = np.full(len(self._disks), self._options.tolerance)
         np.fmax(least, self._options.relative_tolerance * self._first, out=least)
         self._minimise(free, least, held=False)
         for rows in loop_rows(self._disks.first_boundary, free):
-            mean = np.einsum("rk,rk->r", self._seen.vertex_measure[rows.at], np.exp(1j * self._theta[rows.at]))
+            mean = np.einsum("rk,rk->r", self._seen.vertex_measure[rows.at], np.exp(1j * self.theta[rows.at]))
             back = (np.abs(mean) >= reach[rows.disk]) & self.converged[rows.disk]
             gone = rows.disk[back]
-            self._theta[rows.at[back]] = theta[rows.at[back]]
+            self.theta[rows.at[back]] = theta[rows.at[back]]
             self._value[gone], self._norm[gone] = value[gone], norm[gone]
             for number in range(made_before, len(self._rounds)):
                 made = self._rounds[number]

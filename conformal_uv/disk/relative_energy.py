@@ -91,9 +91,9 @@ def _least_ratio(above: Complex | Real, below: Complex, theta: Real) -> tuple[Re
     if np.isnan(found.value[0]):
         return theta, ()
     made = [
-        NewtonStep(*(float(part[0]) for part in (s.value, s.norm)), 0, float(s.length[0]))
-        for s in found.steps
-        if len(s.row)
+        NewtonStep(float(step.value[0]), float(step.norm[0]), 0, float(step.length[0]))
+        for step in found.steps
+        if len(step.row)
     ]
     last = NewtonStep(float(found.value[0]), float(found.norm[0]), 0, 0.0)
     return found.theta[0], (*made, last)
