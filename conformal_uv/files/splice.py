@@ -2,32 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["decimal_texts", "spliced"]
+__all__ = ["spliced"]
 
 Ints = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
-
-
-def decimal_texts(values: Ints, prefix: bytes) -> tuple[Bytes, Ints]:
-    """Integers >= 0 in decimal, each after a one-letter prefix: the text run together and the lengths."""
-    width = len(str(int(values.max(initial=0))))
-    table = np.empty((len(values), width + 1), np.uint8)
-    table[:, 0] = prefix[0]
-    rest: NDArray[Any] = values.astype(np.int32 if width < 10 else np.int64)
-    lengths = np.full(len(values), 2, np.int64)
-    for k in range(width, 0, -1):
-        tenth = rest // 10
-        table[:, k] = rest - 10 * tenth + ord("0")
-        rest = tenth
-        lengths += (rest > 0) & (k > 1)
-    keep = np.arange(width, -1, -1) < (lengths - 1)[:, None]
-    keep[:, 0] = True
-    return table[keep], lengths
 
 
 def spliced(text: bytes, starts: Ints, ends: Ints, replacement: Bytes, lengths: Ints) -> bytes:
