@@ -17,20 +17,21 @@ def spliced(text: bytes, starts: Ints, ends: Ints, replacement: Bytes, lengths: 
     ``replacement`` holds the new texts run together, ``lengths`` the length of each.
     """
     source = np.frombuffer(text, np.uint8)
-    kept = np.append(starts, len(source)) - np.concatenate([np.zeros(1, np.int64), ends])
-    old = np.repeat(_alternating(len(starts)), _interleaved(kept, ends - starts))
-    new = np.repeat(_alternating(len(starts)), _interleaved(kept, lengths))
-    result = np.empty(len(new), np.uint8)
-    result[new] = source[old]
-    result[~new] = replacement
+    kept = np.append(starts, len(source))
+    kept[1:] -= ends
+    if not np.array_equal(starts, ends):
+        source = source[_of_kept(kept, ends - starts)]
+    old = _of_kept(kept, lengths)
+    result = np.empty(len(old), np.uint8)
+    result[old] = source
+    result[~old] = replacement
     return result.tobytes()
 
 
-def _alternating(count: int) -> NDArray[np.bool_]:
-    return np.arange(2 * count + 1) % 2 == 0
-
-
-def _interleaved(kept: Ints, between: Ints) -> Ints:
+def _of_kept(kept: Ints, between: Ints) -> NDArray[np.bool_]:
+    """True as often as the first of ``kept`` says, False as often as the first of ``between``, and so on."""
     lengths = np.empty(len(kept) + len(between), np.int64)
     lengths[::2], lengths[1::2] = kept, between
-    return lengths
+    flags = np.zeros(len(lengths), dtype=bool)
+    flags[::2] = True
+    return np.repeat(flags, lengths)
