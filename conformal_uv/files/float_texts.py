@@ -1,6 +1,6 @@
 """Floating-point numbers as the shortest decimals that read back the same, many at once.
 
-A number's 17 digits are those of its product with a power of ten, exact in the sum of two doubles (Dekker 1971); fewer
+A number's 17 digits are those of its product with a power of ten, exact in the sum of two doubles ; fewer
 digits do where what they say is nearer to the number than half the way to the next one.
 """
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.files.digits import FOUR, TEN, WORD, compacted, digit_words, first_letters
+from conformal_uv.files.exact import half_gaps, product
 
 __all__ = ["float_rows"]
 
@@ -27,12 +28,10 @@ MOST = {np.dtype(np.float64): 1e15, np.dtype(np.float32): 2.0**24}
 SHORTER = {np.dtype(np.float64): (16, 15), np.dtype(np.float32): (9, 8, 7, 6)}
 """How many digits may do instead of 17, from most to least."""
 
-HALF_GAP = {np.dtype(np.float64): 2.0**-53, np.dtype(np.float32): 2.0**-24}
-"""Half the way from 1 to the next number."""
+PRECISION = {np.dtype(np.float64): 53, np.dtype(np.float32): 24}
 
 MARGIN = 1 - 2.0**-40  # the comparison with half a gap is itself rounded
 BEHIND = 19  # digits behind the point at most
-SPLIT = 2.0**27 + 1
 POWER = 10.0 ** np.arange(BEHIND + 1)
 NEXT = np.array([float(f"1e{k}") for k in range(-3, 16)])
 ORDER = np.floor(np.arange(-10, 50) * np.log10(2.0)).astype(np.int64)
@@ -115,14 +114,12 @@ def _fraction(size: Floats, whole: Ints, kind: np.dtype[Any]) -> NDArray[np.uint
     order += size >= NEXT[order + 4]
     places = 16 - order
     power = POWER[places]
-    high, low = _product(size, power)
+    high, low = product(size, power)
     near = np.rint(low)
     low -= near
     exact = high.astype(np.int64) + near.astype(np.int64)
 
-    gap = (bits & -(1 << 52)).view(np.float64) * power
-    gap *= HALF_GAP[kind] * MARGIN
-    gap[(bits & ((1 << 52) - 1)) == 0] *= 0.5  # the next number below a power of two is nearer
+    gap = half_gaps(size, PRECISION[kind]) * power * MARGIN
     best = exact
     for count in SHORTER[kind]:
         unit = 10 ** (17 - count)
@@ -131,22 +128,6 @@ def _fraction(size: Floats, whole: Ints, kind: np.dtype[Any]) -> NDArray[np.uint
         rounded -= (error == unit // 2) & (low == 0) & (rounded % 2 == 1)  # half-way: the even digit
         best = np.where(np.abs(error - low) < gap, rounded * unit, best)
     return (best - whole * TEN[places].view(np.int64)).view(np.uint64) * TEN[BEHIND - places]
-
-
-def _product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """a b as the sum of two doubles."""
-    product = a * b
-    high = a * SPLIT
-    high -= high - a
-    low = a - high
-    other = b * SPLIT
-    other -= other - b
-    rest = b - other
-    error = high * other - product
-    error += high * rest
-    error += low * other
-    error += low * rest
-    return product, error
 
 
 def _point_words(fraction: NDArray[np.uint64]) -> tuple[list[NDArray[np.uint32]], Ints]:
