@@ -14,7 +14,7 @@ from conformal_uv.files.text_numbers import float_numbers
 __all__ = ["TextLines", "text_blocks"]
 
 NEWLINE, RETURN, BLANK, HASH, BACKSLASH = b"\n\r #\\"
-BLOCK = 1 << 20  # bytes looked at together
+BLOCK = 1 << 19  # bytes looked at together
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 Ints = NDArray[np.int64]

@@ -19,7 +19,7 @@ from conformal_uv.files.text_numbers import float_numbers, whole_numbers
 
 __all__ = ["TextBlock", "TextRows"]
 
-BLOCK = 1 << 20  # bytes looked at together
+BLOCK = 1 << 19  # bytes looked at together
 MOST_WHOLE = 2.0**53
 
 
