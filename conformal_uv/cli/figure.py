@@ -26,8 +26,9 @@ __all__ = ["check_drawable", "draw_sphere_map", "draw_unwrapped"]
 
 SUFFIXES = (".png", ".pdf", ".svg")
 
-DETAILED = 20000  # faces up to which edges are drawn
+DETAILED = 20000  # faces up to which each is a shape of its own, with edges in the map
 LIES_FLAT = 0.05  # sine of the slope, as of charts
+FLIPPED = (0.9, 0.1, 0.1, 1.0)
 LIGHT = np.array([-0.35, 0.45, 0.82])
 
 
@@ -56,7 +57,7 @@ def draw_unwrapped(path: Path, result: Unwrapped, title: str, upright: Upright =
     edges = {"edgecolors": "0.25", "linewidths": 0.3 if count > 2000 else 0.6} if count <= DETAILED else {}
     _add_faces(middle, image, shade, **edges)
     middle.set_title(_caption(charts))
-    _draw_faces_by_error(figure, right, _joined(charts), image, np.arange(count))
+    _draw_faces_by_error(figure, right, _joined(charts), image, np.arange(float(count)))
     for axes in (left, middle, right):
         axes.set_aspect("equal")
         axes.set_axis_off()
@@ -82,8 +83,7 @@ def draw_sphere_map(path: Path, result: SphereMap, title: str) -> None:
     axes[0].set_title(f"{title}: {len(xyz)} vertices")
     axes[1].set_title(f"{result.method} map, conformal energy {result.conformal_energy:.3g}")
     flat, depth, _ = _view(xyz[F])
-    far_first = np.argsort(depth)
-    _draw_faces_by_error(figure, axes[2], result.distortion, flat, far_first)
+    _draw_faces_by_error(figure, axes[2], result.distortion, flat, depth)
     for place in axes:
         place.set_aspect("equal")
         place.set_axis_off()
@@ -93,8 +93,9 @@ def draw_sphere_map(path: Path, result: SphereMap, title: str) -> None:
 
 
 def _draw_faces_by_error(
-    figure: Any, axes: Axes, measured: Distortion, image: NDArray[np.float64], order: NDArray[np.int64]
+    figure: Any, axes: Axes, measured: Distortion, image: NDArray[np.float64], depth: NDArray[np.float64]
 ) -> None:
+    """The faces, those of less depth first; of the flipped ones all that are not behind 0 lie on top."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
@@ -102,8 +103,12 @@ def _draw_faces_by_error(
     error = measured.angle_error.mean(axis=1)
     norm = Normalize(0.0, max(float(np.percentile(error, 99)), 1e-6))
     colours = colormaps["viridis"](norm(error))
-    colours[measured.flipped] = [0.9, 0.1, 0.1, 1.0]
-    _add_faces(axes, image[order], colours[order])
+    colours[measured.flipped] = FLIPPED
+    far_first = np.argsort(depth)
+    _add_faces(axes, image[far_first], colours[far_first])
+    flipped = measured.flipped[depth[measured.flipped] >= 0]
+    if len(image) > DETAILED >= len(flipped) > 0:  # with an outline, for they may be far smaller than a pixel
+        _add_faces(axes, image[flipped], colours[flipped], edgecolors="face", linewidths=0.6)
     bar = figure.colorbar(ScalarMappable(norm, "viridis"), ax=axes, shrink=0.75, extend="max")
     bar.set_label("angle error, degrees (mean of a face)")
     told = f"angle error: mean {measured.angle_mean:.3g}, max {measured.angle_max:.3g} degrees"
@@ -166,5 +171,12 @@ def _joined(charts: list[Chart]) -> Distortion:
 def _add_faces(axes: Axes, polygons: NDArray[np.float64], colours: NDArray[np.float64], **edges: Any) -> None:
     from matplotlib.collections import PolyCollection
 
+    from .triangle_picture import TrianglePicture
+
+    if len(polygons) > DETAILED:
+        axes.add_artist(TrianglePicture(polygons, colours))
+        x, y = polygons[:, :, 0], polygons[:, :, 1]
+        axes.update_datalim([(x.min(), y.min()), (x.max(), y.max())])
+        return
     style = edges or {"edgecolors": "face", "linewidths": 0.2}
     axes.add_collection(PolyCollection(list(polygons), facecolors=colours, rasterized=True, **style))

@@ -81,11 +81,14 @@ def scan_elements(lines: TextLines, chosen: Ints, *, places: bool = False) -> El
 
 def _corners(text: NDArray[np.uint8], count: int) -> tuple[Ints, Ints, Ints, Ints] | None:
     """Vertex and texture indices of the corners, and where they end in the text; None if a word is not a corner."""
+    digit = (text - ZERO) < 10
+    edges = np.flatnonzero(digit[1:] != digit[:-1]) + 1
+    alike = _alike_corners(text, digit, edges, count)
+    if alike is not None:
+        return alike
     # "1/" and "1//": empty indices, as some programs write them
     for _ in range(2):
         text[np.flatnonzero((text[:-1] == SLASH) & (text[1:] <= BLANK))] = BLANK
-    digit = (text - ZERO) < 10
-    edges = np.flatnonzero(digit[1:] != digit[:-1]) + 1
     starts, ends = edges[::2], edges[1::2]
     negative = text[starts - 1] == MINUS
     head = starts - negative
@@ -108,6 +111,28 @@ def _corners(text: NDArray[np.uint8], count: int) -> tuple[Ints, Ints, Ints, Int
     found, texture_end = np.zeros(count, np.int64), ends[opens]
     found[corner], texture_end[corner] = values[at], ends[at]
     return values[opens], found, ends[opens], texture_end
+
+
+def _alike_corners(
+    text: NDArray[np.uint8], digit: NDArray[np.bool_], edges: Ints, count: int
+) -> tuple[Ints, Ints, Ints, Ints] | None:
+    """The same where all corners are a/t or all are a/t/n, of positive numbers; else None."""
+    slashes = int(np.count_nonzero(text == SLASH))
+    each = 1 + slashes // max(count, 1)
+    if each not in (2, 3) or len(edges) != 2 * each * count or slashes != (each - 1) * count:
+        return None
+    numbers = edges.reshape(count, each, 2)
+    stops, next_starts = numbers[:, :-1, 1], numbers[:, 1:, 0]
+    if np.count_nonzero(digit) + slashes != np.count_nonzero(text > BLANK) or (text[stops] != SLASH).any():
+        return None
+    if (next_starts - stops != 1).any() or (edges[1::2] - edges[::2]).max() > DIGITS:
+        return None
+    text[text == SLASH] = BLANK
+    values = whole_numbers(text.tobytes(), each * count)
+    if values is None:
+        return None
+    vertex, texture = values.reshape(count, each)[:, :2].T
+    return vertex, texture, numbers[:, 0, 1], numbers[:, 1, 1]
 
 
 def _after(flag: NDArray[np.bool_]) -> NDArray[np.bool_]:

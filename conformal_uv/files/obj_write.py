@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from conformal_uv.files.corner_uv import filled_corner_uv, mapped_faces, shared_uv
+from conformal_uv.files.digits import whole_texts
+from conformal_uv.files.float_texts import float_rows
 from conformal_uv.files.mesh_file import MeshFile
 from conformal_uv.files.obj_blocks import ObjBlock, obj_blocks
+from conformal_uv.files.obj_fresh import write_fresh_obj
 from conformal_uv.files.obj_read import ObjSource
-from conformal_uv.files.splice import decimal_texts, spliced
+from conformal_uv.files.splice import spliced
 from conformal_uv.files.text_lines import TextLines
-from conformal_uv.mesh.polygons import PolygonMesh
 
 __all__ = ["patched_obj", "write_obj"]
 
@@ -30,8 +31,8 @@ def write_obj(stream: BinaryIO, source: MeshFile, corner_uv: Floats) -> None:
     """Write ``source`` with new texture coordinates; its own lines are kept if it came from an OBJ file."""
     origin = source.origin
     if not isinstance(origin, ObjSource) or origin.mesh is not source.mesh:
-        corner_uv = filled_corner_uv(source.mesh, corner_uv, source.corner_uv)
-        origin = _fresh(source.mesh)
+        write_fresh_obj(stream, source.mesh, filled_corner_uv(source.mesh, corner_uv, source.corner_uv))
+        return
     for part in patched_obj(origin, corner_uv):
         stream.write(part)
 
@@ -79,7 +80,7 @@ class _Change:
         target[new] = self.number[self.corner : self.corner + count] + 1 + self.earlier
         self.face, self.corner = self.face + faces, self.corner + count
         changed = new | (block.texture >= 0)
-        texts, lengths = decimal_texts(target[changed], b"/")
+        texts, lengths = whole_texts(target[changed], b"/")
         gone = block.is_vt if self.drop else np.zeros(len(lines.starts), dtype=bool)
         starts = np.concatenate([lines.starts[gone], elements.vertex_end[changed]])
         ends = np.concatenate([np.minimum(lines.ends[gone], len(lines.text) - 1), elements.texture_end[changed]])
@@ -87,7 +88,7 @@ class _Change:
         if gone.any():
             order = np.argsort(starts, kind="stable")
             starts, ends, lengths = starts[order], ends[order], lengths[order]
-        return starts, ends, lengths, texts
+        return starts, ends, lengths, np.frombuffer(texts, np.uint8)
 
 
 def _patched(lines: TextLines, pieces: _Pieces, begin: int, end: int) -> bytes:
@@ -103,26 +104,8 @@ def _patched(lines: TextLines, pieces: _Pieces, begin: int, end: int) -> bytes:
 def _vt_lines(data: bytes, uv: Floats) -> Iterator[bytes]:
     """Lines for these coordinates, with the shortest numbers that read back the same."""
     newline = data.find(b"\n")
-    end = "\n" if newline >= 0 else "\r"
+    end = b"\n" if newline >= 0 else b"\r"
     if newline > 0 and data[newline - 1 : newline] == b"\r":
-        end = "\r\n"
+        end = b"\r\n"
     for begin in range(0, len(uv), ROWS):
-        some = uv[begin : begin + ROWS]
-        yield ((f"vt %r %r{end}" * len(some)) % tuple(some.ravel().tolist())).encode("ascii")
-
-
-def _fresh(mesh: PolygonMesh) -> ObjSource:
-    """An OBJ file of this mesh, without texture coordinates."""
-    parts = []
-    for begin in range(0, len(mesh.V), ROWS):
-        points = mesh.V[begin : begin + ROWS]
-        parts.append((("v %r %r %r\n" * len(points)) % tuple(points.ravel().tolist())).encode("ascii"))
-    first_element = sum(map(len, parts))
-    for begin in range(0, len(mesh.starts) - 1, ROWS):
-        starts = mesh.starts[begin : begin + ROWS + 1]
-        texts, lengths = decimal_texts(mesh.corners[starts[0] : starts[-1]] + 1, b" ")
-        at = np.concatenate([np.zeros(1, np.int64), np.cumsum(lengths)])[starts - starts[0]]
-        breaks = np.frombuffer(b"f" + b"\nf" * (len(starts) - 2) + b"\n", np.uint8)
-        widths = np.r_[1, np.full(len(at) - 2, 2), 1]
-        parts.append(spliced(texts.tobytes(), at, at, breaks, widths))
-    return ObjSource(Path("fresh.obj"), b"".join(parts), mesh, first_element)
+        yield float_rows(uv[begin : begin + ROWS], b"vt", end)[0]

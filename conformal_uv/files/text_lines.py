@@ -11,19 +11,13 @@ from numpy.typing import NDArray
 from conformal_uv.errors import FileFormatError
 from conformal_uv.files.text_numbers import float_numbers
 
-__all__ = ["TextLines", "spans", "text_blocks"]
+__all__ = ["TextLines", "text_blocks"]
 
 NEWLINE, RETURN, BLANK, HASH, BACKSLASH = b"\n\r #\\"
-BLOCK = 1 << 20  # bytes looked at together
+BLOCK = 1 << 19  # bytes looked at together
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 Ints = NDArray[np.int64]
-
-
-def spans(starts: Ints, lengths: Ints) -> Ints:
-    """The indices start, start + 1, ... of every span, one span after the other."""
-    offsets = np.cumsum(lengths) - lengths
-    return np.repeat(starts - offsets, lengths) + np.arange(int(lengths.sum()))
 
 
 def text_blocks(path: Path, data: bytes) -> Iterator[TextLines]:

@@ -1,4 +1,4 @@
-"""Numbers of a text, all at once, by numpy's own parser."""
+"""Numbers of a text, all at once: plain decimals word by word, others by numpy's own parser."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from conformal_uv.files.plain_numbers import plain_floats
+
 MOST = 10**18
 
 __all__ = ["float_numbers", "in_32_bits", "whole_numbers"]
@@ -15,7 +17,8 @@ __all__ = ["float_numbers", "in_32_bits", "whole_numbers"]
 
 def float_numbers(text: bytes, count: int) -> NDArray[np.float64] | None:
     """The words of a text as doubles, correctly rounded; None if they are not so many numbers."""
-    return _numbers(text, count, np.float64)
+    plain = plain_floats(text, count)
+    return _numbers(text, count, np.float64) if plain is None else plain
 
 
 def whole_numbers(text: bytes, count: int) -> NDArray[np.int64] | None:

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from conformal_uv.files.digits import whole_texts
+from conformal_uv.files.float_texts import float_rows
 from conformal_uv.files.ply.binary_rows import EvenRows, UnevenRows
 from conformal_uv.files.ply.header import PlyProperty
 from conformal_uv.files.ply.lists import packed
@@ -16,6 +18,7 @@ from conformal_uv.files.ply.rows import Ints
 from conformal_uv.files.ply.source import PlyRows
 from conformal_uv.files.ply.text_rows import TextBlock, TextRows
 from conformal_uv.files.splice import spliced
+from conformal_uv.files.text_lines import BLANK, NEWLINE
 
 __all__ = ["Added", "changed_rows"]
 
@@ -129,41 +132,53 @@ def _joined(parts: list[tuple[NDArray[np.uint8], Ints]], count: int) -> tuple[ND
 
 
 def _text(rows: TextRows, block: TextBlock, gone: list[PlyProperty], added: list[Added]) -> bytes:
-    """Lines without some words and with the new ones at their ends."""
-    text = block.text
+    """Lines without some words and with the new ones at their ends, where blanks go."""
+    text, first = block.text, block.first
     if gone:
         _, places, lengths = rows.layout(block)
         words = np.append(block.words, len(text))
         spans = []
         for p in gone:
-            first = places[p.name]
-            spans.append((words[first], words[first + 1 + lengths.get(p.name, 0)]))
-        ends = np.flatnonzero(np.frombuffer(text, np.uint8) == ord("\n"))
+            at = places[p.name]
+            spans.append((words[at], words[at + 1 + lengths.get(p.name, 0)]))
+            first = first - np.append(0, np.cumsum(1 + lengths.get(p.name, np.zeros(len(at), np.int64))))
+        newlines = _newlines(text)
         starts = np.concatenate([s for s, _ in spans])
-        stops = np.minimum(np.concatenate([e for _, e in spans]), np.tile(ends, len(spans)))
+        stops = np.minimum(np.concatenate([e for _, e in spans]), np.tile(newlines, len(spans)))
         sort = np.argsort(starts)
         nothing = np.zeros(len(starts), np.int64)
         text = spliced(text, starts[sort], stops[sort], np.empty(0, np.uint8), nothing)
-    lines = text.decode("latin-1").split("\n")[:-1]
-    if gone or b" \n" in text or b"\t\n" in text:
-        lines = list(map(str.rstrip, lines))
-    known: dict[int, list[str]] = {}  # an array that is there under two names is turned into text once
-    columns = []
-    for new in added:
-        at = new.values.ctypes.data
-        known[at] = known.get(at) or _words(new)
-        columns.append(known[at])
-    return ("\n".join(map(" ".join, zip(lines, *columns, strict=True))) + "\n").encode("latin-1")
+    new, sizes = _texts(added, len(first) - 1)
+    return spliced(text, _line_ends(text, first), _newlines(text), new, sizes)
 
 
-def _words(new: Added) -> list[str]:
-    """A new property's text row by row, with the shortest decimals that read back the same."""
-    if new.values.dtype == np.float32:
-        numbers = new.values.astype("U").tolist()
+def _newlines(text: bytes) -> Ints:
+    return np.flatnonzero(np.frombuffer(text, np.uint8) == NEWLINE)
+
+
+def _line_ends(text: bytes, first: Ints) -> Ints:
+    """Where each line's last word ends; ``first`` counts the words before each line and before the end."""
+    inked = np.frombuffer(text, np.uint8) > BLANK
+    return (np.flatnonzero(inked[:-1] & ~inked[1:]) + 1)[first[1:] - 1]
+
+
+def _texts(added: list[Added], count: int) -> tuple[NDArray[np.uint8], Ints]:
+    """What is added to each row."""
+    if added and all(new.lengths is None and new.values.dtype == np.float64 for new in added):
+        raw, sizes = float_rows(np.column_stack([new.values for new in added]))
+        return np.frombuffer(raw, np.uint8), sizes
+    return _joined([_words(new) for new in added], count)
+
+
+def _words(new: Added) -> tuple[NDArray[np.uint8], Ints]:
+    """A new property's text row by row, a blank before each number."""
+    if new.values.dtype.kind == "f":
+        raw, sizes = float_rows(new.values[:, None])
     else:
-        numbers = list(map(repr, new.values.tolist()))
+        raw, sizes = whole_texts(new.values, b" ")
+    text = np.frombuffer(raw, np.uint8)
     if new.lengths is None:
-        return numbers
-    ends = np.cumsum(new.lengths).tolist()
-    lists = zip(new.lengths.tolist(), [0, *ends], ends, strict=False)
-    return [" ".join([str(length), *numbers[begin:end]]) for length, begin, end in lists]
+        return text, sizes
+    at = np.append(0, np.cumsum(sizes))[np.append(0, np.cumsum(new.lengths))]
+    raw, sizes = whole_texts(new.lengths, b" ")
+    return _joined([(np.frombuffer(raw, np.uint8), sizes), (text, np.diff(at))], len(sizes))

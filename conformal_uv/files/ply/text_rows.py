@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from conformal_uv.errors import FileFormatError
 from conformal_uv.files.ply.header import PlyElement, PlyProperty
 from conformal_uv.files.ply.rows import Ints, damaged_row, kept_type
-from conformal_uv.files.text_lines import BLANK, NEWLINE, spans
+from conformal_uv.files.spans import spans
+from conformal_uv.files.text_lines import BLANK, NEWLINE
 from conformal_uv.files.text_numbers import float_numbers, whole_numbers
 
 __all__ = ["TextBlock", "TextRows"]
 
-BLOCK = 1 << 20  # bytes looked at together
+BLOCK = 1 << 19  # bytes looked at together
 MOST_WHOLE = 2.0**53
 
 
