@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import blocks
+from .blocks import by_blocks
 
 __all__ = ["TriangleGeometry", "triangle_geometry"]
 
@@ -46,12 +46,16 @@ class TriangleGeometry:
         The cross product of two edges is wrong by a few eps times the product of their lengths, so below that the
         sign and size of the cotangents carry no information.
         """
-        a, b, c = self.dot
-        longest = a + b
-        np.maximum(longest, b + c, out=longest)
-        np.maximum(longest, c + a, out=longest)
-        longest *= 8.0 * np.finfo(np.float64).eps
-        return np.flatnonzero(self.double_area <= longest)
+
+        def found(part: slice) -> NDArray[np.int64]:
+            a, b, c = self.dot[:, part]
+            longest = a + b
+            np.maximum(longest, b + c, out=longest)
+            np.maximum(longest, c + a, out=longest)
+            longest *= 8.0 * np.finfo(np.float64).eps
+            return part.start + np.flatnonzero(self.double_area[part] <= longest)
+
+        return np.concatenate(by_blocks(found, len(self.double_area)) or [np.empty(0, dtype=np.int64)])
 
 
 def triangle_geometry(V: NDArray[np.float64], corners: NDArray[np.int32]) -> TriangleGeometry:
@@ -59,7 +63,8 @@ def triangle_geometry(V: NDArray[np.float64], corners: NDArray[np.int32]) -> Tri
     m = corners.shape[1]
     dot, double_area = np.empty((3, m)), np.empty(m)
     columns = np.ascontiguousarray(V.T)
-    for part in blocks(m):
+
+    def measure(part: slice) -> None:
         here = corners[:, part].astype(np.intp)
         sides = []
         total = np.zeros((3, here.shape[1]))
@@ -72,6 +77,8 @@ def triangle_geometry(V: NDArray[np.float64], corners: NDArray[np.int32]) -> Tri
             sides.append((ab, bc))
         dot[:, part] = total
         double_area[part] = _cross_length(sides)
+
+    by_blocks(measure, m)
     return TriangleGeometry(dot, double_area)
 
 
