@@ -43,6 +43,8 @@ def with_sharp_ears(z: Complex, corners: NDArray[np.int32], loop: Ints, folds: I
     on_boundary[loop] = True
     ears = corners[:, folds]
     ears = ears[:, on_boundary[ears].all(axis=0)]
+    if not ears.size:
+        return z
     levels = _levels(ears, np.bincount(corners.reshape(-1), minlength=len(z)))
     out, need = z, np.full(ears.shape[1], DEPTHS[0])
     for deepest in DEPTHS:
