@@ -19,6 +19,7 @@ __all__ = ["side_by_side", "thread_count"]
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
+FEW = 4  # items, which are done before another thread is awake
 ENVIRONMENT_VARIABLE = "OMP_NUM_THREADS"
 
 _lock = threading.Lock()
@@ -40,7 +41,7 @@ def side_by_side(work: Callable[[Item], Result], items: Iterable[Item]) -> list[
     work, and the first in the order of the items is raised. Work that calls this again stays in its own thread.
     """
     given = list(items)
-    helpers = 0 if getattr(_here, "busy", False) else min(thread_count(), len(given)) - 1
+    helpers = 0 if len(given) < FEW or getattr(_here, "busy", False) else min(thread_count(), len(given) // 2) - 1
     if helpers < 1:
         return [work(item) for item in given]
     shared = _Shared(work, given)

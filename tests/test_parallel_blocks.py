@@ -75,10 +75,10 @@ def test_processors_allowed_are_those_of_this_process() -> None:
     assert 1 <= threads._allowed() <= (os.cpu_count() or 1)
 
 
-def test_one_block_or_one_thread_starts_no_pool(two_processors: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert by_blocks(lambda part: part.stop, BLOCK) == [BLOCK]
-    monkeypatch.setenv("OMP_NUM_THREADS", "1")
+def test_few_blocks_or_one_thread_starts_no_pool(two_processors: None, monkeypatch: pytest.MonkeyPatch) -> None:
     assert by_blocks(lambda part: part.stop, 3 * BLOCK) == [BLOCK, 2 * BLOCK, 3 * BLOCK]
+    monkeypatch.setenv("OMP_NUM_THREADS", "1")
+    assert by_blocks(lambda part: part.start, 5 * BLOCK) == [k * BLOCK for k in range(5)]
     assert threads._pool is None
 
 
@@ -117,7 +117,7 @@ def test_the_first_error_is_raised_when_no_other_work_goes_on(kind: type[BaseExc
     assert set(left) <= {2, 3}  # nobody else is at work any more
     time.sleep(0.05)
     assert running == left
-    assert side_by_side(str, range(3)) == ["0", "1", "2"]
+    assert side_by_side(str, range(8)) == list("01234567")
 
 
 def test_work_inside_of_work_stays_in_its_thread(two_processors: None) -> None:
@@ -138,9 +138,9 @@ def test_the_callers_ways_with_overflow_hold_in_every_thread(two_processors: Non
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 def test_a_forked_child_makes_its_own_threads(two_processors: None) -> None:
-    assert side_by_side(str, range(3)) == ["0", "1", "2"]
+    assert side_by_side(str, range(8)) == list("01234567")
     context = multiprocessing.get_context("fork")
-    child = context.Process(target=lambda: os._exit(side_by_side(str, range(3)) != ["0", "1", "2"]))
+    child = context.Process(target=lambda: os._exit(side_by_side(str, range(8)) != list("01234567")))
     child.start()
     child.join(30)
     assert child.exitcode == 0
@@ -152,4 +152,4 @@ def test_an_interpreter_that_ends_works_in_one_thread(two_processors: None, monk
             raise RuntimeError("cannot schedule new futures after interpreter shutdown")
 
     monkeypatch.setattr(threads, "_pool", Ended())
-    assert side_by_side(str, range(3)) == ["0", "1", "2"]
+    assert side_by_side(str, range(8)) == list("01234567")

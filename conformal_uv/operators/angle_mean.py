@@ -36,12 +36,12 @@ class AngleMean:
         self._total = self._sum(z, None)
         self.first = self._mean(self._total)
 
-    def of(self, z: NDArray[np.complex128]) -> float:
-        """Of other positions (n,)."""
+    def of(self, z: NDArray[np.complex128], faces: NDArray[np.int64] | None = None) -> float:
+        """Of other positions (n,); `faces` (k,) are those with a vertex that lies elsewhere, where they are known."""
         if z is self._z:
             return self.first
-        corners = self._surface.corners
-        faces = faces_at(corners, z != self._z)
+        if faces is None:
+            faces = faces_at(self._surface.corners, z != self._z)
         if len(faces) > MOST_CHANGED * self._surface.m:
             return self._mean(self._sum(z, None))
         return self._mean(self._total + self._sum(z, faces) - self._sum(self._z, faces))

@@ -98,7 +98,9 @@ def intrinsic_geometry(lengths: NDArray[np.float64]) -> TriangleGeometry:
     The area is Heron's formula in the order that keeps it accurate for needles (Kahan 2014); 0 where the
     triangle inequality fails.
     """
-    c, b, a = np.sort(lengths, axis=0)
+    x, y, z = lengths
+    low, high = np.minimum(x, y), np.maximum(x, y)
+    c, b, a = np.minimum(low, z), np.maximum(low, np.minimum(high, z)), np.maximum(high, z)
     square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
     double_area = 0.5 * np.sqrt(np.maximum(square, 0.0))
     squared = lengths * lengths

@@ -33,10 +33,13 @@ class NearbyMaps:
 
     def __init__(self, surface: Surface, z: Complex, flipped: Faces) -> None:
         self._surface, self._z, self._flipped = surface, z, flipped
+        self._last = z, np.zeros(surface.n, dtype=bool), np.empty(0, dtype=np.int64)
 
     def angle_mean(self, z: Complex) -> float:
         """Mean angle error over all corners, degrees."""
-        return self._angles.of(z)
+        if z is self._z:
+            return self._angles.first
+        return self._angles.of(z, self._changed(z)[1])
 
     def flipped(self, z: Complex) -> Faces:
         """As `flipped_faces`."""
@@ -58,9 +61,15 @@ class NearbyMaps:
         """The faces that are picked at z; `found` are those at the first positions."""
         if z is self._z:
             return found
-        moved = z != self._z
-        changed = faces_at(self._surface.corners, moved)
+        moved, changed = self._changed(z)
         a, b, c = (moved.take(corner) for corner in self._surface.corners.take(found, axis=1))
         stays = found[~(a | b | c)]
         here = changed[pick(z, self._surface.corners.take(changed, axis=1))]
         return np.sort(np.concatenate((stays, here)))
+
+    def _changed(self, z: Complex) -> tuple[NDArray[np.bool_], Faces]:
+        """Vertices that lie elsewhere than at first, and the faces at them; those asked for last are kept."""
+        if z is not self._last[0]:
+            moved = z != self._z
+            self._last = z, moved, faces_at(self._surface.corners, moved)
+        return self._last[1:]
