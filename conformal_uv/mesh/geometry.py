@@ -39,6 +39,28 @@ class TriangleGeometry:
         """Squared length of half-edge c (corner c to c + 1), (3, m): dot_c + dot_(c+1)."""
         return np.stack([self.dot[c] + self.dot[c - 2] for c in range(3)])
 
+    def side_lengths(self) -> Real:
+        """Length of half-edge c, (3, m); 0 where rounding has made the square negative."""
+        lengths = np.empty_like(self.dot)
+
+        def fill(part: slice) -> None:
+            a, b, c = self.dot[:, part]
+            for row, (one, other) in zip(lengths, ((a, b), (b, c), (c, a)), strict=True):
+                np.add(one, other, out=row[part])
+            np.maximum(lengths[:, part], 0.0, out=lengths[:, part])
+            np.sqrt(lengths[:, part], out=lengths[:, part])
+
+        by_blocks(fill, len(self.double_area))
+        return lengths
+
+    def cotangents(self) -> Real:
+        """Cotangent of each corner's angle, (3, m), of triangles that all have area."""
+        out = np.empty_like(self.dot)
+        by_blocks(
+            lambda part: np.divide(self.dot[:, part], self.double_area[part], out=out[:, part]), len(self.double_area)
+        )
+        return out
+
     @cached_property
     def degenerate(self) -> NDArray[np.int64]:
         """Faces whose area is lost to rounding: twice the area at most 8 eps times the longest edge squared, (k,).

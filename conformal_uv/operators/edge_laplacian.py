@@ -78,7 +78,7 @@ def edge_laplacian(
         return cotan_edges(edges, geometry)
     if kind is Laplacian.AUTO and not len(geometry.degenerate):
         plain = cotan_edges(edges, geometry)
-        if not (plain.weights[edges.count == 2] < -ROUNDING).any():
+        if not ((plain.weights < -ROUNDING) & (edges.count == 2)).any():
             return plain
         return intrinsic_delaunay_edges(corners, edges, geometry, n, plain, effort)
     return intrinsic_delaunay_edges(corners, edges, geometry, n, effort=effort)
@@ -110,19 +110,18 @@ def intrinsic_delaunay_edges(
         The weights of the triangles as they are, where they are at hand. They tell which edges are not Delaunay,
         and stay where nothing is flipped.
     """
-    lengths = geometry.squared_lengths
-    np.sqrt(np.maximum(lengths, 0.0, out=lengths), out=lengths)
+    lengths = geometry.side_lengths()
     safe = mollified(lengths)
     if safe is not lengths or len(geometry.degenerate):
         delaunay = intrinsic_delaunay(corners, safe, edges.twin, effort=effort)
         return _sorted(*_edges_around(delaunay, np.arange(corners.shape[1])), n, delaunay.corners)
     plain = plain or cotan_edges(edges, geometry)
     negative = (plain.weights < 0.0) & (edges.count == 2)
-    suspects = np.flatnonzero(negative[edges.edge])
-    suspects = suspects[suspects < edges.twin[suspects]]
+    suspects = np.flatnonzero(negative.take(edges.edge))
+    suspects = suspects[suspects < edges.twin.take(suspects)]
     delaunay = intrinsic_delaunay(corners, lengths, edges.twin, geometry=geometry, suspects=suspects, effort=effort)
     stays = np.ones(len(edges.lo), dtype=bool)
-    stays[edges.edge.reshape(corners.shape)[:, delaunay.changed]] = False
+    stays[edges.edge.reshape(corners.shape).take(delaunay.changed, axis=1)] = False
     weights = plain.weights[stays]
     if delaunay.finished:
         weights[negative[stays]] = 0.0  # Delaunay to rounding, where nothing was flipped

@@ -90,7 +90,7 @@ def intrinsic_delaunay(
     if geometry is None:
         area2, cot = areas_and_cotangents(lengths)
     else:
-        area2, cot = geometry.double_area.copy(), geometry.dot / geometry.double_area
+        area2, cot = geometry.double_area.copy(), geometry.cotangents()
     work = EdgeFlips(corners.copy(), lengths.copy(), twin.copy(), area2, cot)
     if suspects is None:
         suspects = np.flatnonzero(twin >= 0)
