@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolverError
+from ..mesh.stars import faces_among
 from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.mean_value import NeighbourMeans, surface_mean_value_matrix
@@ -157,7 +158,7 @@ def _respaced(
     corners = surface.corners
     place = np.full(surface.n, -1, dtype=np.int64)
     place[loop] = np.arange(len(loop))
-    ears = np.flatnonzero((place[corners] >= 0).all(axis=0))
+    ears = faces_among(corners, place >= 0)
     for _ in range(ROUNDS):
         arcs = boundary.fitted(np.maximum(arcs, SMALLEST_ARC))
         z = extend(boundary.points(arcs))
