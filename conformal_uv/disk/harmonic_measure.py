@@ -105,15 +105,10 @@ class TorsionPeak(NamedTuple):
 
     def measures(self, problem: DirichletProblem) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Harmonic measures (nb,) seen from the vertex, and in the mean from those around it."""
+        measure = problem.harmonic_measure(self.vertex)
         if len(self.around) == 1:
-            measure = problem.harmonic_measure(self.vertex)
             return measure, measure
-        vertices = np.union1d(self.around, self.vertex)
-        weights = np.zeros((len(vertices), 2))
-        weights[np.searchsorted(vertices, self.vertex), 0] = 1.0
-        weights[np.searchsorted(vertices, self.around), 1] = self.weights
-        measure, middle = np.ascontiguousarray(problem.mean_measures(vertices, weights).T)
-        return measure, middle
+        return measure, problem.mean_measure(self.around, self.weights)
 
 
 def torsion_peak(

@@ -148,18 +148,16 @@ class DirichletProblem:
 
     def interior_values(self, zb: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Harmonic extension of complex boundary values zb (nb,), at the interior vertices (ni,)."""
-        found = self._solve_at(self._near, -(self._next_to_boundary @ zb.view(np.float64).reshape(-1, 2)))
+        values = -(self._next_to_boundary @ zb.view(np.float64).reshape(-1, 2))
+        if self._solver is None or self._corrections:
+            rhs = np.zeros((len(self.interior), 2))
+            rhs[self._near] = values
+            found = self.solve(rhs)
+        else:
+            found = self._solver.solve_at(self._near, values)
         z = np.empty(len(found), dtype=np.complex128)
         z.real, z.imag = found.T
         return z
-
-    def _solve_at(self, rows: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Solution (ni, k) for right-hand sides with these values (r, k) in some rows and 0 in the others."""
-        if self._solver is not None and not self._corrections:
-            return self._solver.solve_at(rows, values)
-        rhs = np.zeros((len(self.interior), values.shape[1]))
-        rhs[rows] = values
-        return self.solve(rhs)
 
     def extend(self, zb: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Harmonic extension of complex boundary values zb (nb,) to all vertices (n,)."""
@@ -177,19 +175,13 @@ class DirichletProblem:
 
         The flux of the Green's function with its pole at the vertex.
         """
-        return self.mean_measures(np.array([vertex]), np.ones((1, 1)))[:, 0]
+        return self.mean_measure(np.array([vertex]), np.ones(1))
 
-    def mean_measures(self, vertices: NDArray[np.int64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Weighted sums (nb, k) of the harmonic measures seen from some interior vertices, for weights (v, k): what
-        boundary values have to be multiplied by to give the weighted sums of their extension there.
-
-        `vertices` ascend.
-        """
-        rows = np.searchsorted(self.interior, vertices)
-        if weights.shape[1] > 1:
-            return -(self.Lbi @ self._solve_at(rows, weights))
-        pole = np.zeros((len(self.interior), 1))
-        pole[rows] = weights
+    def mean_measure(self, vertices: NDArray[np.int64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The weighted sum of the harmonic measures seen from some interior vertices, (nb,): what boundary values have
+        to be multiplied by to give the weighted sum of their extension there."""
+        pole = np.zeros(len(self.interior))
+        pole[np.searchsorted(self.interior, vertices)] = weights
         return -(self.Lbi @ self.solve(pole))
 
 
