@@ -171,7 +171,7 @@ def test_of_maps_with_angles_alike_the_one_with_fewer_folds(
     means: tuple, folds: tuple, converged: tuple, always: bool, chosen: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told = iter(means)
-    monkeypatch.setattr(mapper, "distortion_of", lambda *args: SimpleNamespace(angle_mean=next(told)))
+    monkeypatch.setattr(mapper, "AngleMean", lambda *args: SimpleNamespace(first=next(told)))
     candidates = [
         mapper._Finished(SimpleNamespace(converged=done), np.zeros(1, complex), np.arange(count), None, None)
         for count, done in zip(folds, converged, strict=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.stars import faces_among
 from ..operators.orientation_sign import collapsed_faces, orientation_signs
 
 __all__ = ["doubtful_faces", "with_sharp_ears"]
@@ -23,10 +24,9 @@ def doubtful_faces(z: Complex, corners: NDArray[np.int32], loop: Ints) -> Ints:
 
     Some are flat; others are ears, faces of three neighbouring boundary vertices, on arcs of next to no height.
     """
-    place = np.full(len(z), -1, dtype=np.int64)
-    place[loop] = np.arange(len(loop))
-    at = place[corners]
-    ears = np.flatnonzero((at >= 0).all(axis=0))
+    on_boundary = np.zeros(len(z), dtype=bool)
+    on_boundary[loop] = True
+    ears = faces_among(corners, on_boundary)
     a, b, c = (z[corner] for corner in corners[:, ears])
     longest = np.maximum(np.maximum(np.abs(b - a), np.abs(c - b)), np.abs(a - c))
     return np.union1d(collapsed_faces(z, corners), ears[longest < DOUBTFUL_ARC])
@@ -43,6 +43,8 @@ def with_sharp_ears(z: Complex, corners: NDArray[np.int32], loop: Ints, folds: I
     on_boundary[loop] = True
     ears = corners[:, folds]
     ears = ears[:, on_boundary[ears].all(axis=0)]
+    if not ears.size:
+        return z
     levels = _levels(ears, np.bincount(corners.reshape(-1), minlength=len(z)))
     out, need = z, np.full(ears.shape[1], DEPTHS[0])
     for deepest in DEPTHS:

@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolverError
+from ..mesh.stars import faces_among
 from ..mesh.surface import Surface
-from ..operators.angle_mean import AngleMean
 from ..operators.dirichlet import DirichletProblem
 from ..operators.mean_value import NeighbourMeans, surface_mean_value_matrix
-from ..operators.orientation_sign import collapsed_faces, flipped_faces
+from ..operators.nearby_maps import NearbyMaps
+from ..operators.orientation_sign import flipped_faces
 from ..options import Repair
 from ..progress import Progress
 from .ears import with_sharp_ears
@@ -60,7 +61,8 @@ def unfolded(
     surface: Surface,
     problem: DirichletProblem,
     z: Complex,
-    folds: Ints,
+    maps: NearbyMaps,
+    doubtful: Ints,
     fixed: Ints,
     repair: Repair,
     progress: Progress,
@@ -75,20 +77,21 @@ def unfolded(
     ----------
     z : (n,) complex128
         A map with the boundary on the circle in order; crowded vertices may coincide.
-    folds : (k,) int64
+    maps : NearbyMaps
+        Of z.
+    doubtful : (k,) int64
         The faces folded there, and those of which only rounding could say that they are not.
     fixed : (f,) int64
         Boundary vertices that stay where they are, at least one.
     repair : Repair
         `auto` pays half a degree of mean angle error, `always` whatever it takes.
     """
-    angles = AngleMean(surface, z)
-    best = start = _Tried(z, folds, angles.first)
+    best = start = _Tried(z, doubtful, maps.angle_mean(z))
     most = start.angle_mean + repair.pays
-    crowded = len(folds) > MOST_MENDED * surface.m  # there an embedding may well have less angle error
-    folded = len(flipped_faces(z, surface.corners))
+    crowded = len(doubtful) > MOST_MENDED * surface.m  # there an embedding may well have less angle error
+    folded = len(maps.flipped(z))
     progress("repair", 0.0)
-    for tried in _ways(surface, problem, z, folds, fixed, angles, progress):
+    for tried in _ways(surface, problem, z, maps, doubtful, fixed, progress):
         if tried.angle_mean <= most and tried.rank < best.rank and len(tried.folds) <= folded:
             best = tried
         if not len(best.folds) and best.angle_mean <= start.angle_mean + CHEAP and not crowded:
@@ -101,20 +104,20 @@ def _ways(
     surface: Surface,
     problem: DirichletProblem,
     z: Complex,
-    folds: Ints,
+    maps: NearbyMaps,
+    doubtful: Ints,
     fixed: Ints,
-    angles: AngleMean,
     progress: Progress,
 ) -> Iterator[_Tried]:
     loop, corners = problem.boundary, surface.corners
-    sharp = _tried(surface, angles, with_sharp_ears(z, corners, loop, np.union1d(folds, flipped_faces(z, corners))))
+    sharp = _tried(maps, with_sharp_ears(z, corners, loop, np.union1d(doubtful, maps.flipped(z))))
     yield sharp
     if len(sharp.folds):
-        mended = _tried(surface, angles, _mended(surface, loop, sharp.z, progress))
+        mended = _tried(maps, _mended(surface, loop, sharp.z, maps, progress))
         yield mended
         for start in (mended, sharp):
             if 0 < len(start.folds) <= MOST_UNTANGLED * surface.m:
-                yield _tried(surface, angles, _untangled(surface, loop, start.z, problem.backend, progress))
+                yield _tried(maps, _untangled(surface, loop, start.z, maps, problem.backend, progress))
     means: list[NeighbourMeans] = []
 
     def by_mean_values(zb: Complex) -> Complex:
@@ -130,15 +133,15 @@ def _ways(
         for extend in (problem.extend, by_mean_values):
             try:
                 yield _respaced(
-                    surface, loop, boundary, boundary.shared(share), extend, angles, problem.backend, progress
+                    surface, loop, boundary, boundary.shared(share), extend, maps, problem.backend, progress
                 )
             except SolverError:
                 continue
 
 
-def _tried(surface: Surface, angles: AngleMean, z: Complex) -> _Tried:
+def _tried(maps: NearbyMaps, z: Complex) -> _Tried:
     z = inside_disk(z)
-    return _Tried(z, flipped_faces(z, surface.corners), angles.of(z))
+    return _Tried(z, maps.flipped(z), maps.angle_mean(z))
 
 
 def _respaced(
@@ -147,7 +150,7 @@ def _respaced(
     boundary: CircleSpacing,
     arcs: Real,
     extend: Callable[[Complex], Complex],
-    angles: AngleMean,
+    maps: NearbyMaps,
     backend: str,
     progress: Progress,
 ) -> _Tried:
@@ -155,7 +158,7 @@ def _respaced(
     corners = surface.corners
     place = np.full(surface.n, -1, dtype=np.int64)
     place[loop] = np.arange(len(loop))
-    ears = np.flatnonzero((place[corners] >= 0).all(axis=0))
+    ears = faces_among(corners, place >= 0)
     for _ in range(ROUNDS):
         arcs = boundary.fitted(np.maximum(arcs, SMALLEST_ARC))
         z = extend(boundary.points(arcs))
@@ -168,23 +171,20 @@ def _respaced(
         arcs = arcs.copy()
         arcs[narrow] = EAR_ARC
     if 0 < len(folds) <= max(100, MOST_MENDED * surface.m):
-        z = _mended(surface, loop, z, progress)
+        z = _mended(surface, loop, z, maps, progress)
         folds = flipped_faces(z, corners)
     if 0 < len(folds) <= MOST_UNTANGLED * surface.m:
-        z = _untangled(surface, loop, z, backend, progress)
-    return _tried(surface, angles, z)
+        z = _untangled(surface, loop, z, maps, backend, progress)
+    return _tried(maps, z)
 
 
-def _mended(surface: Surface, loop: Ints, z: Complex, progress: Progress) -> Complex:
+def _mended(surface: Surface, loop: Ints, z: Complex, maps: NearbyMaps, progress: Progress) -> Complex:
     """Local repair of the interior."""
-    inside = _interior(surface, loop)
-    return repaired(surface.corners, z, inside, lambda z: collapsed_faces(z, surface.corners), progress)
+    return repaired(surface.corners, z, _interior(surface, loop), maps.collapsed, progress)
 
 
-def _untangled(surface: Surface, loop: Ints, z: Complex, backend: str, progress: Progress) -> Complex:
-    return untangled(
-        surface, z, _interior(surface, loop), lambda z: flipped_faces(z, surface.corners), backend, progress
-    )
+def _untangled(surface: Surface, loop: Ints, z: Complex, maps: NearbyMaps, backend: str, progress: Progress) -> Complex:
+    return untangled(surface, z, _interior(surface, loop), maps.flipped, backend, progress)
 
 
 def _interior(surface: Surface, loop: Ints) -> NDArray[np.bool_]:

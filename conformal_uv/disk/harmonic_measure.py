@@ -23,6 +23,7 @@ from ..operators.edge_laplacian import edge_laplacian
 
 __all__ = ["CentredMeasure", "angles_of_measure", "centred_measure"]
 
+EFFORT = 4  # flips a face of the copy with chords split; thousands of chords side by side may ask for any number
 MOST_OF_ONE = 0.49  # of the harmonic measure
 NOTHING = 1e-12  # of a neighbour's measure: what is left of weights that cancel
 ALIKE = 1e-9  # part of the torsion function's peak
@@ -70,7 +71,7 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
         return CentredMeasure(None, np.full(3, 1.0 / 3.0), 2.0 * np.pi / 3.0 * np.arange(3.0))
     V, corners = split_edges(surface.V, surface.corners, surface.edges, chord_edges(surface, loop))
     edges, geometry = half_edges(corners, len(V)), triangle_geometry(V, corners)
-    laplacian = edge_laplacian(corners, edges, geometry, len(V))
+    laplacian = edge_laplacian(corners, edges, geometry, len(V), effort=EFFORT)
     refined = DirichletProblem(laplacian, loop, len(V), points=V, backend=problem.backend)
     seen = peak if peak is not None else torsion_peak(V, corners, geometry, refined)
     fine, fine_middle = seen.measures(refined)

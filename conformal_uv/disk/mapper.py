@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..operators.angle_mean import AngleMean
 from ..operators.dirichlet import DirichletProblem
-from ..operators.distortion import distortion_of
 from ..operators.factorized_disk import FactorizedDisk
+from ..operators.nearby_maps import NearbyMaps
 from ..operators.orientation_sign import flipped_faces
 from ..optimize.choice import best_map
 from ..options import Balance, DiskOptions, Laplacian, Method, Objective, Repair
@@ -144,22 +145,19 @@ class DiskMapper:
         corners = self.surface.corners
         doubtful = doubtful_faces(z, corners, self.boundary)
         if len(doubtful):
-            folded, before = z, flipped
-            z = unfolded(self.surface, solution.problem, z, doubtful, fixed, options.repair, progress)
+            folded, before, maps = z, flipped, NearbyMaps(self.surface, z, flipped)
+            z = unfolded(self.surface, solution.problem, z, maps, doubtful, fixed, options.repair, progress)
             if z is not folded:
                 z = recentred(z, center, corners) if options.pins is None else z
-                flipped = flipped_faces(z, corners)
-                cost = repair_cost(self.surface, folded, z, before, flipped)
+                flipped = maps.flipped(z)
+                cost = repair_cost(maps, folded, z, before, flipped)
             center = center if center is not None and z[center] == 0.0 else None
         return _Finished(solution, z, flipped, cost, center)
 
     def _better(self, candidates: list[_Finished], always: bool) -> _Finished:
         """The best of them; where folds are `always` mended whatever it costs, they come first."""
         surface = self.surface
-        means = [
-            distortion_of(surface.geometry, surface.corners, one.z.view(np.float64).reshape(-1, 2)).angle_mean
-            for one in candidates
-        ]
+        means = [AngleMean(surface, one.z).first for one in candidates]
         folds = [len(one.flipped) for one in candidates]
         unfinished = [not one.solution.converged for one in candidates]
         return candidates[best_map(means, folds, unfinished, folds_first=always)]

@@ -16,10 +16,10 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from ..errors import SolverError
-from ..mesh.surface import Surface
-from ..operators.distortion import distortion_of
+from ..mesh.stars import faces_at
 from ..operators.mean_value import NeighbourMeans, positive_mean_value_matrix
 from ..operators.moebius import Moebius
+from ..operators.nearby_maps import NearbyMaps
 from ..operators.orientation_sign import flipped_faces
 from ..progress import Progress
 from .placement import inside_disk
@@ -52,15 +52,14 @@ class Repair:
     angle_mean_after: float
 
 
-def repair_cost(surface: Surface, before: Complex, after: Complex, folds: Faces, folds_after: Faces) -> Repair:
+def repair_cost(maps: NearbyMaps, before: Complex, after: Complex, folds: Faces, folds_after: Faces) -> Repair:
     """What the repair of positions `before`, with these folds, to `after` did."""
-    angles = [distortion_of(surface.geometry, surface.corners, _points(z)).angle_mean for z in (before, after)]
     return Repair(
         flipped_before=len(folds),
         flipped_after=len(folds_after),
         moved_vertices=int(np.count_nonzero(after != before)),
-        angle_mean_before=angles[0],
-        angle_mean_after=angles[1],
+        angle_mean_before=maps.angle_mean(before),
+        angle_mean_after=maps.angle_mean(after),
     )
 
 
@@ -107,18 +106,23 @@ def _where_better(
     at = np.flatnonzero(patch)
     number = np.full(len(z), -1, dtype=np.int64)
     number[at] = np.arange(len(at))
-    place = number[corners]
+    place = number[corners.take(faces_at(corners, patch), axis=1)]
     sides = [(place[k], place[k - 1]) for k in range(3)]
     first, second = (np.concatenate(ends) for ends in zip(*sides, strict=True))
     both = (first >= 0) & (second >= 0)
     graph = coo_array((np.ones(both.sum(), dtype=np.int8), (first[both], second[both])), shape=(len(at), len(at)))
     parts, part = connected_components(graph, directed=False)
-    of_face = np.where(place.max(axis=0) >= 0, part[place.max(axis=0)], -1)
-    before, after = (np.bincount(of_face[f][of_face[f] >= 0], minlength=parts) for f in (folds, left))
+    before, after = (_folds_of_parts(number[corners.take(faces, axis=1)], part, parts) for faces in (folds, left))
     out = z.copy()
     taken = at[(after < before)[part]]
     out[taken] = moved[taken]
     return out
+
+
+def _folds_of_parts(place: NDArray[np.int64], part: NDArray[np.integer], parts: int) -> NDArray[np.int64]:
+    """How many faces each part has, by the places (3, k) of their corners among the vertices of all parts, or -1."""
+    last = place.max(axis=0)
+    return np.bincount(part[last[last >= 0]], minlength=parts)
 
 
 def recentred(z: Complex, center: int | None, corners: NDArray[np.int32]) -> Complex:
@@ -138,7 +142,7 @@ def _ball(corners: NDArray[np.int32], faces: NDArray[np.int64], rings: int, n: i
     near = np.zeros(n, dtype=bool)
     near[corners[:, faces]] = True
     for _ in range(rings):
-        near[corners[:, near[corners].any(axis=0)]] = True
+        near[corners.take(faces_at(corners, near), axis=1)] = True
         if near.all():
             break
     return near
@@ -148,9 +152,5 @@ def _untangled(z: Complex, corners: NDArray[np.int32], patch: NDArray[np.bool_],
     """z with the patch placed by its positive mean value weights."""
     folded = np.zeros(len(z), dtype=bool)
     folded[corners[:, folds]] = True
-    faces = np.flatnonzero(patch[corners].any(axis=0))
+    faces = faces_at(corners, patch)
     return NeighbourMeans(positive_mean_value_matrix(z, corners, faces, folded), np.flatnonzero(patch)).placed(z)
-
-
-def _points(z: Complex) -> NDArray[np.float64]:
-    return np.ascontiguousarray(z).view(np.float64).reshape(-1, 2)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SolverError
+from ..mesh.stars import faces_at
 from ..mesh.surface import Surface
 from ..operators.conformal_barrier import BarrierPlace, FaceDerivatives
 from ..optimize import lbfgs
@@ -71,7 +72,7 @@ def _around(corners: NDArray[np.int32], faces: Ints, rings: int, n: int) -> NDAr
     near = np.zeros(n, dtype=bool)
     near[corners[:, faces]] = True
     for _ in range(rings):
-        near[corners[:, near[corners].any(axis=0)]] = True
+        near[corners.take(faces_at(corners, near), axis=1)] = True
     return near
 
 

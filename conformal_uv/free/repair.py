@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..disk.repair import Repair, repair_cost, repaired
 from ..disk.untangling import untangled
 from ..mesh.surface import Surface
+from ..operators.nearby_maps import NearbyMaps
 from ..operators.orientation_sign import flipped_faces
 from ..options import Repair as Choice
 from ..progress import Progress
@@ -36,10 +37,11 @@ def unfolded(
     folds = flipped_faces(z, surface.corners)
     if not len(folds) or choice is Choice.NEVER:
         return z, None
+    maps = NearbyMaps(surface, z, folds)
     best, found = z, None
     for mended in _ways(surface, inside, z, held, backend, progress):
         left = flipped_faces(mended, surface.corners)
-        cost = repair_cost(surface, z, mended, folds, left)
+        cost = repair_cost(maps, z, mended, folds, left)
         dear = cost.angle_mean_after > cost.angle_mean_before + choice.pays
         if not dear and len(left) < (len(folds) if found is None else found.flipped_after):
             best, found = mended, cost

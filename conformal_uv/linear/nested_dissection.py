@@ -12,11 +12,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..threads import side_by_side
+
 __all__ = ["nested_dissection"]
 
 Index = NDArray[np.int32]
 Cells = NDArray[np.int64]
 
+BLOCK = 1 << 15  # vertices; three numbers for each stay in the cache
 LEAF = 16  # vertices of a cell that is not cut any further
 SAMPLES = 16  # vertices of a cell, about, that tell where to cut it
 FEW = 1024  # cells
@@ -50,8 +53,15 @@ def nested_dissection(points: NDArray[np.float64], indices: Index, indptr: NDArr
     # A separator comes after the last vertex of the cell that it parts, and after finer ones that end there too.
     last = cell | ((np.int64(1) << level) - 1)
     key = (last << 5) | level
-    order = np.argsort(key, kind="stable")
-    return order.astype(np.int32) if _work(key[order], n) < WORST else None
+    bits = np.int64(
+        n.bit_length()
+    )  # vertices of a key in their order; plain numbers are sorted much faster than places
+    key <<= bits
+    key |= np.arange(n)
+    key.sort()
+    order = (key & ((np.int64(1) << bits) - 1)).astype(np.int32)
+    key >>= bits
+    return order if _work(key, n) < WORST else None
 
 
 def _cells(points: NDArray[np.float64], levels: int) -> Cells:
@@ -70,10 +80,22 @@ def _cells(points: NDArray[np.float64], levels: int) -> Cells:
         count = SAMPLES << level
         chosen = here if count >= n else (np.arange(count) * step) % n  # spread evenly, in step with no grid
         axis, middle = _cuts(grid.take(chosen, axis=1), cell.take(chosen), 1 << level)
-        coordinate = flat.take((axis * n).take(cell) + here)
-        cell <<= 1
-        cell += coordinate > middle.take(cell >> 1)
+        _descend(cell, flat, axis * n, middle)
     return cell
+
+
+def _descend(cell: Cells, flat: NDArray[np.int32], start: NDArray[np.int64], middle: NDArray[np.int32]) -> None:
+    """From each cell into one of its halves, by the coordinate that begins at `start` in all coordinates."""
+
+    def halve(begin: int) -> None:
+        here = cell[begin : begin + BLOCK]
+        place = start.take(here)
+        place += np.arange(begin, begin + len(here))
+        beyond = flat.take(place) > middle.take(here)
+        here <<= 1
+        here += beyond
+
+    side_by_side(halve, range(0, len(cell), BLOCK))
 
 
 def _cuts(grid: NDArray[np.int32], cell: Cells, cells: int) -> tuple[NDArray[np.int64], NDArray[np.int32]]:

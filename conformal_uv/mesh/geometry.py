@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .blocks import blocks
+from .blocks import by_blocks
 
 __all__ = ["TriangleGeometry", "triangle_geometry"]
 
@@ -39,6 +39,28 @@ class TriangleGeometry:
         """Squared length of half-edge c (corner c to c + 1), (3, m): dot_c + dot_(c+1)."""
         return np.stack([self.dot[c] + self.dot[c - 2] for c in range(3)])
 
+    def side_lengths(self) -> Real:
+        """Length of half-edge c, (3, m); 0 where rounding has made the square negative."""
+        lengths = np.empty_like(self.dot)
+
+        def fill(part: slice) -> None:
+            a, b, c = self.dot[:, part]
+            for row, (one, other) in zip(lengths, ((a, b), (b, c), (c, a)), strict=True):
+                np.add(one, other, out=row[part])
+            np.maximum(lengths[:, part], 0.0, out=lengths[:, part])
+            np.sqrt(lengths[:, part], out=lengths[:, part])
+
+        by_blocks(fill, len(self.double_area))
+        return lengths
+
+    def cotangents(self) -> Real:
+        """Cotangent of each corner's angle, (3, m), of triangles that all have area."""
+        out = np.empty_like(self.dot)
+        by_blocks(
+            lambda part: np.divide(self.dot[:, part], self.double_area[part], out=out[:, part]), len(self.double_area)
+        )
+        return out
+
     @cached_property
     def degenerate(self) -> NDArray[np.int64]:
         """Faces whose area is lost to rounding: twice the area at most 8 eps times the longest edge squared, (k,).
@@ -46,12 +68,16 @@ class TriangleGeometry:
         The cross product of two edges is wrong by a few eps times the product of their lengths, so below that the
         sign and size of the cotangents carry no information.
         """
-        a, b, c = self.dot
-        longest = a + b
-        np.maximum(longest, b + c, out=longest)
-        np.maximum(longest, c + a, out=longest)
-        longest *= 8.0 * np.finfo(np.float64).eps
-        return np.flatnonzero(self.double_area <= longest)
+
+        def found(part: slice) -> NDArray[np.int64]:
+            a, b, c = self.dot[:, part]
+            longest = a + b
+            np.maximum(longest, b + c, out=longest)
+            np.maximum(longest, c + a, out=longest)
+            longest *= 8.0 * np.finfo(np.float64).eps
+            return part.start + np.flatnonzero(self.double_area[part] <= longest)
+
+        return np.concatenate(by_blocks(found, len(self.double_area)) or [np.empty(0, dtype=np.int64)])
 
 
 def triangle_geometry(V: NDArray[np.float64], corners: NDArray[np.int32]) -> TriangleGeometry:
@@ -59,7 +85,8 @@ def triangle_geometry(V: NDArray[np.float64], corners: NDArray[np.int32]) -> Tri
     m = corners.shape[1]
     dot, double_area = np.empty((3, m)), np.empty(m)
     columns = np.ascontiguousarray(V.T)
-    for part in blocks(m):
+
+    def measure(part: slice) -> None:
         here = corners[:, part].astype(np.intp)
         sides = []
         total = np.zeros((3, here.shape[1]))
@@ -72,6 +99,8 @@ def triangle_geometry(V: NDArray[np.float64], corners: NDArray[np.int32]) -> Tri
             sides.append((ab, bc))
         dot[:, part] = total
         double_area[part] = _cross_length(sides)
+
+    by_blocks(measure, m)
     return TriangleGeometry(dot, double_area)
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.blocks import blocks
+from ..mesh.blocks import by_blocks
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
+from ..mesh.stars import faces_at
 from ..mesh.surface import Surface
 from .distortion import angle_between
 
@@ -35,12 +36,12 @@ class AngleMean:
         self._total = self._sum(z, None)
         self.first = self._mean(self._total)
 
-    def of(self, z: NDArray[np.complex128]) -> float:
-        """Of other positions (n,)."""
+    def of(self, z: NDArray[np.complex128], faces: NDArray[np.int64] | None = None) -> float:
+        """Of other positions (n,); `faces` (k,) are those with a vertex that lies elsewhere, where they are known."""
         if z is self._z:
             return self.first
-        corners = self._surface.corners
-        faces = np.flatnonzero((z != self._z)[corners].any(axis=0))
+        if faces is None:
+            faces = faces_at(self._surface.corners, z != self._z)
         if len(faces) > MOST_CHANGED * self._surface.m:
             return self._mean(self._sum(z, None))
         return self._mean(self._total + self._sum(z, faces) - self._sum(self._z, faces))
@@ -53,8 +54,10 @@ class AngleMean:
         points = np.ascontiguousarray(z).view(np.float64).reshape(-1, 2)
         corners, geometry = self._surface.corners, self._surface.geometry
         if faces is not None:
-            corners, geometry = corners[:, faces], TriangleGeometry(geometry.dot[:, faces], geometry.double_area[faces])
-        return sum(
-            float(angle_between(geometry.part(part), triangle_geometry(points, corners[:, part])).sum())
-            for part in blocks(corners.shape[1])
-        )
+            corners = corners.take(faces, axis=1)
+            geometry = TriangleGeometry(geometry.dot.take(faces, axis=1), geometry.double_area.take(faces))
+
+        def turned(part: slice) -> float:
+            return float(angle_between(geometry.part(part), triangle_geometry(points, corners[:, part])).sum())
+
+        return sum(by_blocks(turned, corners.shape[1]), 0.0)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import MeshError, NonFiniteError, listed
 from ..mesh.arrays import face_array, scaled, vertex_array
-from ..mesh.blocks import blocks
+from ..mesh.blocks import by_blocks
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
 from .orientation_sign import orientation_signs, outward_signs
 from .wirtinger import Sides, planar_sides, unfolded_sides, wirtinger
@@ -118,7 +118,8 @@ def distortion_of(
     """The same for geometry at hand, its unit of length being `unit` of the image's, and positions already checked."""
     m = corners.shape[1]
     angle, quasi_conformal, area_scale, signs = np.empty((m, 3)), np.empty(m), np.empty(m), orientations(image, corners)
-    for part in blocks(m):
+
+    def measure(part: slice) -> None:
         here, there = geometry.part(part), triangle_geometry(image, corners[:, part])
         sides = _image_sides(image, corners[:, part], there)
         has_area = here.double_area > 0
@@ -128,6 +129,8 @@ def distortion_of(
         angle[part] = angle_between(here, there).T
         quasi_conformal[part] = _ratio(plus + minus, small, has_area & (small > 0))
         area_scale[part] = _ratio(there.double_area, here.double_area, has_area, unit)
+
+    by_blocks(measure, m)
     return Distortion(np.degrees(angle, out=angle), quasi_conformal, area_scale, np.flatnonzero(signs <= 0))
 
 

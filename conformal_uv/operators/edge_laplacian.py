@@ -11,7 +11,7 @@ from ..mesh.geometry import TriangleGeometry
 from ..mesh.halfedges import HalfEdges, sorted_pairs
 from ..mesh.manifold import check_areas
 from ..options import Laplacian
-from .intrinsic_delaunay import IntrinsicTriangulation, intrinsic_delaunay
+from .intrinsic_delaunay import EFFORT, IntrinsicTriangulation, intrinsic_delaunay
 from .laplacian import cotangent_weights
 from .mollification import mollified
 
@@ -48,7 +48,12 @@ class EdgeLaplacian:
 
 
 def edge_laplacian(
-    corners: NDArray[np.int32], edges: HalfEdges, geometry: TriangleGeometry, n: int, kind: str = "auto"
+    corners: NDArray[np.int32],
+    edges: HalfEdges,
+    geometry: TriangleGeometry,
+    n: int,
+    kind: str = "auto",
+    effort: int = EFFORT,
 ) -> EdgeLaplacian:
     """The Laplacian of the triangles ``corners`` (3, m) over n vertices.
 
@@ -57,6 +62,8 @@ def edge_laplacian(
     kind : {"auto", "cotan", "intrinsic-delaunay"}
         "auto" is "cotan" where all faces have area and no interior edge a negative weight, else
         "intrinsic-delaunay".
+    effort : int
+        As in `intrinsic_delaunay`.
 
     Raises
     ------
@@ -71,10 +78,10 @@ def edge_laplacian(
         return cotan_edges(edges, geometry)
     if kind is Laplacian.AUTO and not len(geometry.degenerate):
         plain = cotan_edges(edges, geometry)
-        if not (plain.weights[edges.count == 2] < -ROUNDING).any():
+        if not ((plain.weights < -ROUNDING) & (edges.count == 2)).any():
             return plain
-        return intrinsic_delaunay_edges(corners, edges, geometry, n, plain)
-    return intrinsic_delaunay_edges(corners, edges, geometry, n)
+        return intrinsic_delaunay_edges(corners, edges, geometry, n, plain, effort)
+    return intrinsic_delaunay_edges(corners, edges, geometry, n, effort=effort)
 
 
 def cotan_edges(edges: HalfEdges, geometry: TriangleGeometry) -> EdgeLaplacian:
@@ -93,8 +100,9 @@ def intrinsic_delaunay_edges(
     geometry: TriangleGeometry,
     n: int,
     plain: EdgeLaplacian | None = None,
+    effort: int = EFFORT,
 ) -> EdgeLaplacian:
-    """Cotangent weights of the intrinsic Delaunay triangulation: non-negative inside.
+    """Cotangent weights of the intrinsic Delaunay triangulation: non-negative inside, unless its flips were ended.
 
     Parameters
     ----------
@@ -102,20 +110,21 @@ def intrinsic_delaunay_edges(
         The weights of the triangles as they are, where they are at hand. They tell which edges are not Delaunay,
         and stay where nothing is flipped.
     """
-    lengths = geometry.squared_lengths
-    np.sqrt(np.maximum(lengths, 0.0, out=lengths), out=lengths)
+    lengths = geometry.side_lengths()
     safe = mollified(lengths)
     if safe is not lengths or len(geometry.degenerate):
-        delaunay = intrinsic_delaunay(corners, safe, edges.twin)
+        delaunay = intrinsic_delaunay(corners, safe, edges.twin, effort=effort)
         return _sorted(*_edges_around(delaunay, np.arange(corners.shape[1])), n, delaunay.corners)
     plain = plain or cotan_edges(edges, geometry)
     negative = (plain.weights < 0.0) & (edges.count == 2)
-    suspects = np.flatnonzero(negative[edges.edge])
-    suspects = suspects[suspects < edges.twin[suspects]]
-    delaunay = intrinsic_delaunay(corners, lengths, edges.twin, geometry=geometry, suspects=suspects)
+    suspects = np.flatnonzero(negative.take(edges.edge))
+    suspects = suspects[suspects < edges.twin.take(suspects)]
+    delaunay = intrinsic_delaunay(corners, lengths, edges.twin, geometry=geometry, suspects=suspects, effort=effort)
     stays = np.ones(len(edges.lo), dtype=bool)
-    stays[edges.edge.reshape(corners.shape)[:, delaunay.changed]] = False
-    weights = np.where(negative, 0.0, plain.weights)[stays]  # Delaunay to rounding, where nothing was flipped
+    stays[edges.edge.reshape(corners.shape).take(delaunay.changed, axis=1)] = False
+    weights = plain.weights[stays]
+    if delaunay.finished:
+        weights[negative[stays]] = 0.0  # Delaunay to rounding, where nothing was flipped
     lo, hi, fresh = _edges_around(delaunay, delaunay.changed)
     lo, hi = np.concatenate((edges.lo[stays], lo)), np.concatenate((edges.hi[stays], hi))
     return _sorted(lo, hi, np.concatenate((weights, fresh)), n, delaunay.corners)
@@ -137,7 +146,8 @@ def _edges_around(
     inner = other >= 0
     weights += np.where(inner, cot.reshape(-1).take((other + 2 * m) % (3 * m)), 0.0)
     weights *= 0.5
-    weights[inner & (weights < 0.0)] = 0.0  # Delaunay to rounding: the four vertices lie on a circle
+    if delaunay.finished:
+        weights[inner & (weights < 0.0)] = 0.0  # Delaunay to rounding: the four vertices lie on a circle
     taken = ~told & (lo != hi)  # an edge from a vertex to itself carries nothing
     lo, hi = lo[taken], hi[taken]
     return np.minimum(lo, hi), np.maximum(lo, hi), weights[taken]

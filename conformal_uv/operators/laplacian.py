@@ -12,6 +12,7 @@ from scipy.sparse import csr_array
 
 from ..errors import MeshError
 from ..mesh.arrays import face_array, scaled, vertex_array
+from ..mesh.blocks import by_blocks
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
 from ..mesh.halfedges import HalfEdges, half_edges
 from ..mesh.manifold import check_areas
@@ -97,7 +98,9 @@ def intrinsic_geometry(lengths: NDArray[np.float64]) -> TriangleGeometry:
     The area is Heron's formula in the order that keeps it accurate for needles (Kahan 2014); 0 where the
     triangle inequality fails.
     """
-    c, b, a = np.sort(lengths, axis=0)
+    x, y, z = lengths
+    low, high = np.minimum(x, y), np.maximum(x, y)
+    c, b, a = np.minimum(low, z), np.maximum(low, np.minimum(high, z)), np.maximum(high, z)
     square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
     double_area = 0.5 * np.sqrt(np.maximum(square, 0.0))
     squared = lengths * lengths
@@ -123,8 +126,12 @@ def cotangent_weights(edges: HalfEdges, geometry: TriangleGeometry) -> NDArray[n
     """Weight (cot a + cot b) / 2 of every edge, (e,)."""
     doubled = 2.0 * geometry.double_area
     half_cot = np.empty_like(geometry.dot)
-    for c in range(3):
-        np.divide(geometry.dot[c - 1], doubled, out=half_cot[c])  # the corner opposite to half-edge c is c + 2
+
+    def divide(part: slice) -> None:
+        for c in range(3):  # the corner opposite to half-edge c is c + 2
+            np.divide(geometry.dot[c - 1, part], doubled[part], out=half_cot[c, part])
+
+    by_blocks(divide, len(doubled))
     weights = np.bincount(edges.edge, weights=half_cot.reshape(-1), minlength=len(edges.lo))
     return weights.astype(np.float64, copy=False)
 

@@ -45,7 +45,8 @@ def positive_mean_value_matrix(
     -------
     (n, n) csr_array, no diagonal, entries positive.
     """
-    here, after, before = corners[:, faces], corners[[1, 2, 0]][:, faces], corners[[2, 0, 1]][:, faces]
+    here = corners.take(faces, axis=1)
+    after, before = here[[1, 2, 0]], here[[2, 0, 1]]
     ahead, behind = z[after] - z[here], z[before] - z[here]
     angle = np.abs(np.angle(ahead.conj() * behind))
     loose = folded[here]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DegenerateFaceError
-from ..mesh.blocks import blocks
+from ..mesh.blocks import by_blocks
 
 __all__ = ["mollified"]
 
@@ -30,7 +30,7 @@ def mollified(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
     mean = float(lengths.mean()) if lengths.size else 0.0
     if not mean > 0.0:
         raise DegenerateFaceError("All vertices lie in one point; there is no surface to map.")
-    lack = max(_lack(lengths[:, part], mean) for part in blocks(lengths.shape[1]))
+    lack = max(by_blocks(lambda part: _lack(lengths[:, part], mean), lengths.shape[1]))
     return lengths + lack if lack > 0.0 else lengths
 
 

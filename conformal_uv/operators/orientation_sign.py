@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.blocks import blocks
+from ..mesh.blocks import by_blocks
 
 __all__ = ["collapsed_faces", "flipped_faces", "inverted_faces", "orientation_signs", "outward_signs"]
 
@@ -37,16 +37,17 @@ def orientation_signs(uv: NDArray[np.float64], corners: NDArray[np.int32]) -> ND
     """
     x, y = np.ascontiguousarray(uv[:, 0]), np.ascontiguousarray(uv[:, 1])
     signs = np.empty(corners.shape[1], dtype=np.int8)
-    unsure = []
-    for part in blocks(len(signs)):
+
+    def rounded(part: slice) -> NDArray[np.int64]:
         here = corners[:, part].astype(np.intp)
         (ax, bx, cx), (ay, by, cy) = x.take(here), y.take(here)
         left = (ax - cx) * (by - cy)
         right = (ay - cy) * (bx - cx)
         area = left - right
         signs[part] = np.sign(area)
-        unsure.append(part.start + np.flatnonzero(np.abs(area) <= ERROR_BOUND * (np.abs(left) + np.abs(right))))
-    doubtful = np.concatenate(unsure) if unsure else np.empty(0, dtype=np.int64)
+        return part.start + np.flatnonzero(np.abs(area) <= ERROR_BOUND * (np.abs(left) + np.abs(right)))
+
+    doubtful = _together(by_blocks(rounded, len(signs)))
     if len(doubtful):
         signs[doubtful] = _exact(uv, corners[:, doubtful])
     return signs
@@ -68,8 +69,8 @@ def outward_signs(x: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray
     """
     columns = np.ascontiguousarray(x.T)
     signs = np.empty(corners.shape[1], dtype=np.int8)
-    unsure = []
-    for part in blocks(len(signs)):
+
+    def rounded(part: slice) -> NDArray[np.int64]:
         here = corners[:, part].astype(np.intp)
         a, b, c = (columns.take(corner, axis=1) for corner in here)
         u, v = b - a, c - a
@@ -79,8 +80,9 @@ def outward_signs(x: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray
             volume += a[i] * (left - right)
             size += np.abs(a[i]) * (np.abs(left) + np.abs(right))
         signs[part] = np.sign(volume)
-        unsure.append(part.start + np.flatnonzero(np.abs(volume) <= VOLUME_BOUND * size))
-    doubtful = np.concatenate(unsure) if unsure else np.empty(0, dtype=np.int64)
+        return part.start + np.flatnonzero(np.abs(volume) <= VOLUME_BOUND * size)
+
+    doubtful = _together(by_blocks(rounded, len(signs)))
     if len(doubtful):
         signs[doubtful] = _exact_volumes(x, corners[:, doubtful])
     return signs
@@ -94,19 +96,24 @@ def flipped_faces(z: NDArray[np.complex128], corners: NDArray[np.int32]) -> NDAr
 def collapsed_faces(z: NDArray[np.complex128], corners: NDArray[np.int32]) -> NDArray[np.int64]:
     """Faces that are flipped, or flat but for rounding, which may have decided how they are wound."""
     x, y = np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
-    found = []
-    for part in blocks(corners.shape[1]):
+
+    def flat(part: slice) -> NDArray[np.int64]:
         here = corners[:, part].astype(np.intp)
         (ax, bx, cx), (ay, by, cy) = x.take(here), y.take(here)
         left = (ax - cx) * (by - cy)
         right = (ay - cy) * (bx - cx)
-        found.append(part.start + np.flatnonzero(left - right <= FLAT * (np.abs(left) + np.abs(right))))
-    return np.concatenate(found) if found else np.empty(0, dtype=np.int64)
+        return part.start + np.flatnonzero(left - right <= FLAT * (np.abs(left) + np.abs(right)))
+
+    return _together(by_blocks(flat, corners.shape[1]))
 
 
 def inverted_faces(x: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int64]:
     """Faces that are not anticlockwise seen from outside a sphere around the origin, decided exactly."""
     return np.flatnonzero(outward_signs(x, corners) <= 0)
+
+
+def _together(parts: list[NDArray[np.int64]]) -> NDArray[np.int64]:
+    return np.concatenate(parts) if parts else np.empty(0, dtype=np.int64)
 
 
 def _apart(points: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int64]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.blocks import blocks
+from ..mesh.blocks import by_blocks
 from ..mesh.geometry import TriangleGeometry
 
 __all__ = [
@@ -61,14 +61,15 @@ def conformal_energy(geometry: TriangleGeometry, z: Complex, corners: NDArray[np
 
     (Levy, Petitjean, Ray, Maillot 2002, section 2; Mullen, Tong, Alliez, Desbrun 2008, eq. 2.)
     """
-    total = 0.0
-    for part in blocks(corners.shape[1]):
+
+    def energy(part: slice) -> float:
         here = geometry.part(part)
         p1, p2 = unfolded_sides(here)
         q1, q2 = planar_sides(z, corners[:, part])
         residual = q2 * p1 - q1 * p2
-        total += float(((residual.real**2 + residual.imag**2) / (4.0 * here.double_area)).sum())
-    return total
+        return float(((residual.real**2 + residual.imag**2) / (4.0 * here.double_area)).sum())
+
+    return sum(by_blocks(energy, corners.shape[1]), 0.0)
 
 
 def enclosed_area(z: Complex) -> float:

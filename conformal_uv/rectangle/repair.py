@@ -15,6 +15,7 @@ from ..disk.repair import Repair, repair_cost, repaired
 from ..disk.untangling import untangled
 from ..mesh.surface import Surface
 from ..operators.mean_value import NeighbourMeans, surface_mean_value_matrix
+from ..operators.nearby_maps import NearbyMaps
 from ..operators.orientation_sign import flipped_faces
 from ..options import Repair as Choice
 from ..progress import Progress
@@ -54,6 +55,7 @@ def unfolded(
         return z, None
     inside = np.ones(surface.n, dtype=bool)
     inside[np.concatenate(sides)] = False
+    maps = NearbyMaps(surface, z, folds)
     best, found = z, None
     fewest = len(folds)
     for tried in _ways(surface, z, sides, inside, progress):
@@ -63,7 +65,7 @@ def unfolded(
         left = folds_of(mended)
         if len(left) >= fewest:
             continue
-        cost = repair_cost(surface, z, mended, folds, left)
+        cost = repair_cost(maps, z, mended, folds, left)
         if cost.angle_mean_after <= cost.angle_mean_before + choice.pays:
             best, found, fewest = mended, cost, len(left)
         if not fewest:
