@@ -33,8 +33,8 @@ def in_order(theta: Real, step: Real) -> Real:
         return moved
     before, change, least = before[rows], change[rows], least[rows]
     wide = np.maximum(before, TINY)
-    beyond = np.maximum(change - least, -700.0 * wide) / (LINEAR_TO * wide)
-    closing = np.where(before > TINY, LINEAR_TO * wide * np.exp(np.minimum(beyond, 0.0)), 0.0)
+    beyond = np.clip(change - least, -700.0 * wide, 0.0) / (LINEAR_TO * wide)
+    closing = np.where(before > TINY, LINEAR_TO * wide * np.exp(beyond), 0.0)
     kept = np.where(change < least, closing, np.maximum(before + change, 0.0))
     kept *= 2.0 * np.pi / kept.sum(axis=-1, keepdims=True)
     moved[rows, 1:] = moved[rows, :1] + np.cumsum(kept, axis=-1)[..., :-1]
