@@ -11,11 +11,12 @@ from ..disk.centre_cell import WORTH_WHILE
 from ..operators.dirichlet import DirichletProblem
 from ..optimize import NewtonStep
 from ..options import DiskOptions
+from ..threads import side_by_side
 from .boundary_rows import EnergyRows, FluxMatrices, centred_rows
 from .disks import Disks
-from .loop_rows import loop_rows
+from .loop_rows import LoopRows, loop_rows
 from .measures import Measures
-from .newton_rows import minimised_rows
+from .newton_rows import NewtonRows, minimised_rows
 
 __all__ = ["NewtonSolver", "linear_positions"]
 
@@ -81,22 +82,26 @@ class NewtonSolver:
 
     def _minimise(self, chosen: Ints, tolerance: Real | float, *, held: bool) -> None:
         """Of the chosen disks, from where they are; `tolerance` is of all disks or of each (c,)."""
-        for rows in loop_rows(self._disks.first_boundary, chosen):
-            found = minimised_rows(
-                self.S.of(rows),
-                self.theta[rows.at],
-                self._seen.vertex_measure[rows.at],
-                held=held,
-                tolerance=tolerance if isinstance(tolerance, float) else tolerance[rows.disk],
-                relative_tolerance=self._options.relative_tolerance if held else 0.0,
-                max_iterations=self._options.max_iterations,
-            )
+        groups = list(loop_rows(self._disks.first_boundary, chosen))
+        solved = side_by_side(lambda rows: self._minimised(rows, tolerance, held=held), groups)
+        for rows, found in zip(groups, solved, strict=True):
             self.theta[rows.at] = found.theta
             self.converged[rows.disk] = found.converged
             self._value[rows.disk], self._norm[rows.disk] = found.value, found.norm
             if held:
                 self._first[rows.disk] = found.first
             self._rounds += [_Round(rows.disk[step.row], step.value, step.norm, step.length) for step in found.steps]
+
+    def _minimised(self, rows: LoopRows, tolerance: Real | float, *, held: bool) -> NewtonRows:
+        return minimised_rows(
+            self.S.of(rows),
+            self.theta[rows.at],
+            self._seen.vertex_measure[rows.at],
+            held=held,
+            tolerance=tolerance if isinstance(tolerance, float) else tolerance[rows.disk],
+            relative_tolerance=self._options.relative_tolerance if held else 0.0,
+            max_iterations=self._options.max_iterations,
+        )
 
     def _worth_releasing(self) -> Ints:
         """Disks whose centres may be released, as `disk.centre_cell` decides."""
@@ -106,12 +111,14 @@ class NewtonSolver:
             energy = EnergyRows(self.S.of(rows), self.theta[rows.at])
             moves, worth, far = energy.moebius_moves(), WORTH_WHILE * energy.value, reach[rows.disk]
             slope = np.einsum("rkc,rk->rc", moves, energy.gradient)
-            curvature = moves.transpose(0, 2, 1) @ energy.hessian() @ moves
+            some = 0.5 * np.linalg.norm(slope, axis=1) * far >= worth
+            moves, slope, worth, far = moves[some], slope[some], worth[some], far[some]
+            curvature = moves.transpose(0, 2, 1) @ energy.some(some).hessian() @ moves
             convex = np.linalg.eigvalsh(curvature)[:, 0] > 0.0
             step = np.linalg.solve(np.where(convex[:, None, None], curvature, np.eye(2)), slope[:, :, None])[:, :, 0]
             gain = 0.5 * np.einsum("rc,rc->r", slope, step)
-            worthy = (0.5 * np.linalg.norm(slope, axis=1) * far >= worth) & convex
-            found.append(rows.disk[worthy & (np.linalg.norm(step, axis=1) < far) & (gain >= worth)])
+            worthy = convex & (np.linalg.norm(step, axis=1) < far) & (gain >= worth)
+            found.append(rows.disk[some][worthy])
         return np.sort(np.concatenate(found))
 
     def _reach(self) -> Real:
