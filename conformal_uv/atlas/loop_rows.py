@@ -12,7 +12,7 @@ __all__ = ["LoopRows", "loop_rows"]
 
 Ints = NDArray[np.int64]
 
-MOST_ENTRIES = 1 << 17  # of the square matrices of all rows, that they fit into memory beside each other
+MOST_ENTRIES = 1 << 16  # of the square matrices of all rows, which then stay in the processor's cache
 
 
 class LoopRows(NamedTuple):

@@ -5,6 +5,8 @@ With very many small boxes this wastes next to nothing, and a hundred thousand o
 
 from __future__ import annotations
 
+from bisect import bisect_right
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,7 +21,7 @@ BISECTIONS = 24
 def square_of_shelves(size: Complex) -> tuple[Complex, float]:
     """Lower left corners of boxes (k,) in a square, and its side."""
     order = _from_high_to_low(size)
-    end, height = np.cumsum(size.real[order]), size.imag[order]
+    end, height = np.cumsum(size.real[order]).tolist(), size.imag[order]
     least = max(float(np.sqrt((size.real * size.imag).sum())), float(size.real.max()), float(height[0]))
     narrow, wide = least, 2.0 * least
     while float(height[_full(end, wide)].sum()) > wide:
@@ -27,7 +29,7 @@ def square_of_shelves(size: Complex) -> tuple[Complex, float]:
     for _ in range(BISECTIONS):
         middle = 0.5 * (narrow + wide)
         narrow, wide = (narrow, middle) if float(height[_full(end, middle)].sum()) <= middle else (middle, wide)
-    starts = _full(end, wide)
+    starts = np.array(_full(end, wide))
     place = np.empty(len(size), dtype=np.complex128)
     up = np.cumsum(height[starts]) - height[starts]
     count = np.diff(np.append(starts, len(size)))
@@ -38,9 +40,9 @@ def square_of_shelves(size: Complex) -> tuple[Complex, float]:
 def blocks_of_shelves(size: Complex, side: float) -> tuple[Complex, Ints, Complex]:
     """Boxes in blocks of about this side: corners (k,) in their blocks, the block of each (k,), sizes of the blocks."""
     order = _from_high_to_low(size)
-    starts = _full(np.cumsum(size.real[order]), side)
+    starts = np.array(_full(np.cumsum(size.real[order]).tolist(), side))
     height = size.imag[order[starts]]
-    first = _full(np.cumsum(height), side)
+    first = np.array(_full(np.cumsum(height).tolist(), side))
     count = np.diff(np.append(starts, len(order)))
     place, block = np.empty(len(size), dtype=np.complex128), np.empty(len(size), dtype=np.int64)
     up = _along(height, first)
@@ -56,7 +58,7 @@ def _from_high_to_low(size: Complex) -> Ints:
     return np.lexsort((-size.real, -size.imag))
 
 
-def _full(end: NDArray[np.float64], room: float) -> Ints:
+def _full(end: list[float], room: float) -> list[int]:
     """Where shelves begin, by the running sum of lengths (k,): a step for each shelf, not for each length.
 
     What is longer than there is room stands alone.
@@ -64,9 +66,9 @@ def _full(end: NDArray[np.float64], room: float) -> Ints:
     starts, here, before = [], 0, 0.0
     while here < len(end):
         starts.append(here)
-        here = max(here + 1, int(np.searchsorted(end, before + room, side="right")))
-        before = float(end[here - 1])
-    return np.array(starts)
+        here = max(here + 1, bisect_right(end, before + room, here))
+        before = end[here - 1]
+    return starts
 
 
 def _along(length: NDArray[np.float64], starts: Ints) -> NDArray[np.float64]:
