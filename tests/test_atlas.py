@@ -7,6 +7,7 @@ import pytest
 from meshes import annulus, fan, moebius_band, plate, scattered_disk, strip, wheel
 
 import conformal_uv as cuv
+from conformal_uv.atlas import DiskAtlas
 from conformal_uv.charts import chart_atlas
 from conformal_uv.operators.dirichlet import DirichletProblem
 
@@ -163,6 +164,22 @@ def test_islands_in_several_batches_and_asked_again_are_the_same(monkeypatch):
     assert not made, "nothing is factorized again"
     z, before = (u.charts[4].map.uv @ [1.0, 1j] for u in (turned, first))
     assert z == pytest.approx(before * np.exp(0.3j))
+
+
+def test_an_island_that_can_not_be_factorized_is_looked_for_by_halves(monkeypatch):
+    meshes = [bumpy(plate(2, 2), k) for k in range(100)]
+    whole = cuv.unwrap(*side_by_side(meshes))
+
+    def refusing(disks, *rest):
+        if 37 in disks.number:
+            raise cuv.SolverError("a block is singular")
+        return DiskAtlas(disks, *rest)
+
+    monkeypatch.setattr(chart_atlas, "DiskAtlas", refusing)
+    u = cuv.unwrap(*side_by_side(meshes))
+    alone = sorted(u.charts.solutions.alone)
+    assert 37 in alone and len(alone) < 2 * chart_atlas.FEWEST
+    assert np.abs(u.uv - whole.uv).max() <= EQUAL
 
 
 def test_named_vertices_take_their_island_out_of_the_batch():

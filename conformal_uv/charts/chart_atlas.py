@@ -64,24 +64,28 @@ class ChartAtlas:
             return
         self._made, made = None, list[_Batch]()
         ends = np.cumsum(self._meshes.weights()[chosen])
-        for part in np.split(chosen, np.flatnonzero(np.diff(ends // BATCH)) + 1):
+        parts = np.split(chosen, np.flatnonzero(np.diff(ends // BATCH)) + 1)[::-1]
+        while parts:
+            part = parts.pop()
             told.start(part)
-            found = self._batch(part, progress)
+            try:
+                found = self._batch(part, progress)
+            except SolverError:  # one chart's fault; it is looked for by halves, and told where it is mapped alone
+                parts += [half for half in np.array_split(part, 2)[::-1] if len(half) >= FEWEST]
+                continue
             if found is not None:
                 made.append(found)
                 yield found
         self._made = chosen, made
 
     def _batch(self, part: Ints, progress: Progress) -> _Batch | None:
+        """Some charts made ready; None where none of them is a disk beyond doubt."""
         meshes = self._meshes
         progress("checks", 0.0)
         disks = sound_disks(meshes.V, meshes.solved, meshes.first_vertex, meshes.first_solved, part, MOST_BOUNDARY)
         if disks is None:
             return None
-        try:
-            atlas = DiskAtlas(disks, self._laplacian, self._backend, progress)
-        except SolverError:  # one chart's fault; which one is found where they are factorized by themselves
-            return None
+        atlas = DiskAtlas(disks, self._laplacian, self._backend, progress)
         count = np.diff(meshes.first_face)[disks.number]
         chart = np.repeat(np.arange(len(disks)), count)
         F = meshes.F[places(meshes.first_face, disks.number)] + disks.first_vertex[chart][:, None]
