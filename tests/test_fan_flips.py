@@ -7,6 +7,7 @@ import pytest
 from meshes import fan
 
 import conformal_uv as cuv
+from conformal_uv.mesh.geometry import TriangleGeometry
 from conformal_uv.mesh.surface import Surface
 from conformal_uv.operators import intrinsic_delaunay as flips
 from conformal_uv.operators.edge_flips import EdgeFlips
@@ -124,3 +125,17 @@ def test_a_fan_without_interior_vertex_is_mapped() -> None:
     m = cuv.disk_map(*fan(30_000), method="linear")
     assert not len(m.flipped)
     assert (np.diff(np.unwrap(np.arctan2(m.uv[m.boundary, 1], m.uv[m.boundary, 0]))) > 0.0).all()
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_flips_do_not_mind_how_the_geometry_lies_in_memory(order: str) -> None:
+    """Part of a geometry's columns, of a sphere without a vertex's star say, may lie face by face."""
+    surface = ellipse(40, 0.2)
+    geometry = TriangleGeometry(np.array(surface.geometry.dot, order=order), surface.geometry.double_area)
+    lengths = np.array(np.sqrt(geometry.squared_lengths), order=order)
+    found = intrinsic_delaunay(surface.corners, lengths, surface.edges.twin, geometry=geometry)
+    assert found.flips > 0 and found.finished
+    m, h = surface.m, np.flatnonzero(found.twin >= 0)
+    cot = found.cotangents.reshape(-1)
+    sums = cot[(h + 2 * m) % (3 * m)] + cot[(found.twin[h] + 2 * m) % (3 * m)]
+    assert sums.min() >= -1e-9

@@ -35,8 +35,9 @@ class EdgeFlips:
     """
 
     def __init__(self, corners: Index, lengths: Real, twin: Index, double_area: Real, cotangents: Real) -> None:
-        self.corners, self.lengths, self.twin = corners, lengths, twin
-        self.double_area, self.cotangents = double_area, cotangents
+        # Written to as flat arrays too: a part of some geometry's columns may lie in memory the other way around.
+        self.corners, self.lengths = np.ascontiguousarray(corners), np.ascontiguousarray(lengths)
+        self.twin, self.double_area, self.cotangents = twin, double_area, np.ascontiguousarray(cotangents)
         self.m = corners.shape[1]
         self.flips = 0
         self.touched = np.zeros(self.m, dtype=bool)
