@@ -81,19 +81,18 @@ def _hardened(surface: Surface, z: Complex, patch: NDArray[np.bool_], backend: s
     if patch.all():
         patch = patch.copy()
         patch[surface.loops[0][:2]] = False  # a similarity changes nothing
-    counted = patch[surface.corners].any(axis=0)
-    counted[surface.degenerate] = False
-    faces = np.flatnonzero(counted)
-    vertices = np.intersect1d(np.flatnonzero(patch), surface.corners[:, faces])  # others have nothing that holds them
-    if not len(vertices):
+    faces = np.setdiff1d(faces_at(surface.corners, patch), surface.degenerate, assume_unique=True)
+    near = np.unique(surface.corners.take(faces, axis=1)).astype(np.int64)
+    free = np.flatnonzero(patch.take(near))  # others of the patch have nothing that holds them
+    if not len(free):
         return z
-    place = BarrierPlace(FaceDerivatives(surface, faces), vertices, z)
+    place = BarrierPlace(FaceDerivatives(surface, faces, near), free, z.take(near))
     size = float(np.abs(place.jacobian).mean())
     if size < SMALLEST:
         return z
     place = place.softened(_softness(float(place.jacobian.min()), size))
     for _ in range(HARDENINGS):
-        inverse = place.held_hessian(surface.V[vertices], backend).solve
+        inverse = place.held_hessian(surface.V[near[free]], backend).solve
         place, _status = lbfgs(
             place, inverse, tolerance=TOLERANCE, max_iterations=STEPS, progress=progress, stage="repair"
         )
@@ -101,7 +100,9 @@ def _hardened(surface: Surface, z: Complex, patch: NDArray[np.bool_], backend: s
         if worst > 0.0 and place.softness <= HARD * size:
             break
         place = place.softened(HARD * size if worst > 0.0 else _softness(worst, 0.5 * place.softness))
-    return place.z
+    out = z.copy()
+    out[near] = place.z
+    return out
 
 
 def _softness(worst: float, size: float) -> float:

@@ -18,6 +18,7 @@ from scipy.sparse import coo_array, csr_array, diags_array
 from ..linear.backends import linear_solver
 from ..linear.linear_system import LowerTriangle
 from ..linear.nested_dissection import nested_dissection
+from ..mesh.geometry import TriangleGeometry
 from ..mesh.surface import Surface
 from .wirtinger import unfolded_sides
 
@@ -31,14 +32,24 @@ SHIFT = 1e-12  # of the diagonal, with which slivers do not make it singular
 
 
 class FaceDerivatives:
-    """``p = P z`` and ``q = Q z`` of some faces of a surface, all with area, as sparse matrices."""
+    """``p = P z`` and ``q = Q z`` of some faces of a surface, all with area, as sparse matrices.
 
-    def __init__(self, surface: Surface, faces: NDArray[np.int64]) -> None:
-        geometry, corners = surface.geometry, surface.corners[:, faces]
-        first, second = (side[faces] for side in unfolded_sides(geometry))
-        opposite = np.stack((second - first, -second, first)) / (2.0 * geometry.double_area[faces])
-        places = np.tile(np.arange(len(faces)), 3), corners.reshape(-1)
-        shape = len(faces), surface.n
+    Parameters
+    ----------
+    surface : Surface
+    faces : (f,) int64
+    vertices : (k,) int64, ascending, optional
+        Those whose positions z are, all that the faces have among them; by default all of the surface.
+    """
+
+    def __init__(self, surface: Surface, faces: NDArray[np.int64], vertices: NDArray[np.int64] | None = None) -> None:
+        corners = surface.corners.take(faces, axis=1)
+        geometry = TriangleGeometry(surface.geometry.dot.take(faces, axis=1), surface.geometry.double_area.take(faces))
+        first, second = unfolded_sides(geometry)
+        opposite = np.stack((second - first, -second, first)) / (2.0 * geometry.double_area)
+        columns = corners.reshape(-1) if vertices is None else np.searchsorted(vertices, corners.reshape(-1))
+        places = np.tile(np.arange(len(faces)), 3), columns
+        shape = len(faces), surface.n if vertices is None else len(vertices)
         self.P = csr_array(((-1j * opposite.conj()).reshape(-1), places), shape=shape)
         self.Q = csr_array(((1j * opposite).reshape(-1), places), shape=shape)
         self.Pt, self.Qt = self.P.conj().T.tocsr(), self.Q.conj().T.tocsr()
