@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.blocks import by_blocks
 from ..options import Shape, Upright
 
 __all__ = ["upright_turn", "upright_turns"]
@@ -17,9 +18,9 @@ Real = NDArray[np.float64]
 Ints = NDArray[np.integer]
 Complex = NDArray[np.complex128]
 
-AXES = {  # up, and what is up on a map of what lies flat
-    Upright.Z: ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
-    Upright.Y: ((0.0, 1.0, 0.0), (0.0, 0.0, -1.0)),
+AXES = {  # which is up, and which way; and what is up on a map of what lies flat
+    Upright.Z: ((2, 1.0), (1, 1.0)),
+    Upright.Y: ((1, 1.0), (2, -1.0)),
 }
 FLAT = 0.05  # mean sine of the slope
 STRAIGHT = 0.3  # part of the boundary's length that runs along two directions more than along others
@@ -75,39 +76,59 @@ def _turns_and_flats(
 ) -> tuple[Complex, NDArray[np.bool_]]:
     """What to multiply the charts' positions by, (c,), and which of them lie flat along an axis.
 
-    `chart` (m,) is that of each face, `size` (c,) its largest coordinate.
+    `chart` (m,), ascending, is that of each face, `size` (c,) its largest coordinate.
     """
-    up, beyond = (np.array(axis) for axis in AXES[upright])
-    size = np.where(size > 0.0, size, 1.0)[chart]  # squares of what is very large or very small would be lost
-    a, b, c = (V[corner] for corner in F.T)
-    sides = (b - a) / size[:, None], (c - a) / size[:, None]
-    image = z[F[:, 1]] - z[F[:, 0]], z[F[:, 2]] - z[F[:, 0]]
-    rise = _mean_rises(sides, image, chart, up)
-    flat = np.abs(rise) < FLAT
-    if flat.any():
-        rise = np.where(flat, _mean_rises(sides, image, chart, beyond), rise)
+    total, rises = _rises(V, F, z, chart, size, AXES[upright])
+    up, beyond = (np.divide(rise, total, out=np.zeros_like(rise), where=total > 0.0) for rise in rises)
+    flat = np.abs(up) < FLAT
+    rise = np.where(flat, beyond, up)
     length = np.abs(rise)
     steep = length >= FLAT
     turn = np.where(steep, 1j * np.conj(rise) / np.where(steep, length, 1.0), 1.0)
     return turn, flat | ~steep
 
 
-def _mean_rises(sides: tuple[Real, Real], image: tuple[Complex, Complex], chart: Ints, axis: Real) -> Complex:
-    """Where charts rise along an axis, as seen in the plane: the slope's sine, the mean over the area, (c,).
+def _rises(
+    V: Real, F: Ints, z: Complex, chart: Ints, size: Real, axes: tuple[tuple[int, float], ...]
+) -> tuple[Real, list[Complex]]:
+    """Areas of charts (c,), up to a factor, and how they rise along axes, as seen in the plane, (c,) each: the slope's
+    sine over the area.
 
     The sine is the surface's, only the direction the image's: in a face that the map squeezes to nothing the gradient
     in the plane is as long as one likes.
     """
-    (first, second), (q1, q2) = sides, image
-    normal = np.cross(first, second)
-    total = np.bincount(chart, np.linalg.norm(normal, axis=1))
-    upward = -1j * ((first @ axis) * q2 - (second @ axis) * q1)  # the gradient over the image's double area
-    length = np.abs(upward)
-    counted = (q1.real * q2.imag - q1.imag * q2.real > 0.0) & (length > 0.0)
-    slope = np.linalg.norm(np.cross(normal, axis), axis=1)
-    part = np.divide(slope * upward, length, out=np.zeros(len(chart), dtype=np.complex128), where=counted)
-    rise = np.bincount(chart, part.real) + 1j * np.bincount(chart, part.imag)
-    return np.divide(rise, total, out=np.zeros(len(total), dtype=np.complex128), where=total > 0.0)
+    columns = np.ascontiguousarray(V.T)
+    unit = np.where(size > 0.0, size, 1.0)  # squares of what is very large or very small would be lost
+
+    def summed(part: slice) -> tuple[int, Real, list[Complex]]:
+        a, b, c = F[part].T.astype(np.intp)
+        own, scale = chart[part], 1.0 / unit[chart[part]]
+        origin = [column.take(a) for column in columns]
+        first = [(column.take(b) - x) * scale for column, x in zip(columns, origin, strict=True)]
+        second = [(column.take(c) - x) * scale for column, x in zip(columns, origin, strict=True)]
+        normal = [first[i - 2] * second[i - 1] - first[i - 1] * second[i - 2] for i in range(3)]
+        at = z.take(a)
+        q1, q2 = z.take(b) - at, z.take(c) - at
+        upside = q1.real * q2.imag - q1.imag * q2.real > 0.0
+        own = own - (lowest := int(own[0]))
+        rises = []
+        for axis, sign in axes:
+            upward = -1j * sign * (first[axis] * q2 - second[axis] * q1)  # the gradient over the image's double area
+            length = np.abs(upward)
+            slope = np.hypot(normal[axis - 2], normal[axis - 1])
+            counted = upside & (length > 0.0)
+            rise = np.divide(slope * upward, length, out=np.zeros(len(own), dtype=np.complex128), where=counted)
+            rises.append(np.bincount(own, rise.real) + 1j * np.bincount(own, rise.imag))
+        area: Real = np.bincount(own, np.sqrt(sum(x * x for x in normal))).astype(np.float64, copy=False)
+        return lowest, area, rises
+
+    total, rises = np.zeros(len(size)), [np.zeros(len(size), dtype=np.complex128) for _ in axes]
+    for lowest, area, found in by_blocks(summed, len(F)):
+        here = slice(lowest, lowest + len(area))
+        total[here] += area
+        for rise, more in zip(rises, found, strict=True):
+            rise[here] += more
+    return total, rises
 
 
 def _straight_sides(boundary: Complex) -> complex | None:
