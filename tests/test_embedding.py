@@ -9,8 +9,9 @@ from nasty_meshes import EMBEDDED, grid
 from numpy.typing import NDArray
 
 import conformal_uv as cuv
+from conformal_uv.disk import embedding
 from conformal_uv.disk.ears import with_sharp_ears
-from conformal_uv.disk.spacing import with_distinct_boundary
+from conformal_uv.disk.spacing import CircleSpacing, with_distinct_boundary
 from conformal_uv.operators.orientation_sign import flipped_faces
 
 CROWDED = [
@@ -146,3 +147,38 @@ def test_a_center_is_told_where_it_is_at_0_only(seed: int) -> None:
         assert m.center == (center if (m.uv[center] == 0.0).all() else None)
         told.append(m.center)
     assert None in told and len(set(told)) > 1
+
+
+def test_arcs_from_one_fixed_point_go_all_around_wherever_it_lies() -> None:
+    """A complex number over itself is 1 but for rounding, which may put it a little ahead of itself."""
+    turns = np.exp(1j * np.linspace(0.0, 6.0, 500))
+    inexact = 0
+    for turn in turns:
+        zb = turn * np.exp(2j * np.pi * np.arange(5) / 5)
+        inexact += np.angle(zb[0] / zb[0]) > 0.0
+        spacing = CircleSpacing(zb, np.array([0]))
+        assert spacing.arcs == pytest.approx(2.0 * np.pi / 5)
+        assert spacing.points(spacing.arcs) == pytest.approx(zb)
+    assert inexact, "the case is not met here"
+
+
+def test_large_meshes_are_mended_in_few_ways_unless_asked_to_be_always(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each way goes over the whole surface; none of these mends anything."""
+    V, F = scattered_disk(60, 20, 3)
+    V = V * [60.0, 1.0, 1.0]
+    assert len(cuv.disk_map(V, F, method="linear", repair="never").flipped) > 0
+    tried: list[int] = []
+
+    def ways(surface, problem, z, maps, doubtful, fixed, progress):
+        for number in range(20):
+            tried.append(number)
+            yield embedding._Tried(z, doubtful, maps.angle_mean(z))
+
+    monkeypatch.setattr(embedding, "_ways", ways)
+    for most, repair, expected in ((1.0, "auto", 5), (1.0, "always", 20), (0.0, "auto", 20)):
+        monkeypatch.setattr(embedding, "MOST_MENDED", most)  # 0: crowded, where an embedding may be better anyway
+        for large, count in ((0, expected), (1000, 20)):
+            monkeypatch.setattr(embedding, "LARGE", large)
+            tried.clear()
+            cuv.disk_map(V, F, method="linear", repair=repair)
+            assert len(tried) == count

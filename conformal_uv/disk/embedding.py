@@ -9,6 +9,7 @@ does not do; nothing is cheaper than what stays within the rounding of the circl
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -42,6 +43,7 @@ MOST_MENDED = 0.01  # of the faces; where more are folded, local repair would mo
 MOST_UNTANGLED = 0.2  # of the faces
 ROUNDS = 4  # of widening ears
 CHEAP = 0.02  # degrees; nobody looks for less
+LARGE, PATIENCE = 200_000, 5  # faces, from where on `auto` tries no more ways than that, each over the whole surface
 
 
 class _Tried(NamedTuple):
@@ -84,14 +86,16 @@ def unfolded(
     fixed : (f,) int64
         Boundary vertices that stay where they are, at least one.
     repair : Repair
-        `auto` pays half a degree of mean angle error, `always` whatever it takes.
+        `auto` pays half a degree of mean angle error, and on large meshes a few passes over the surface; `always`
+        whatever it takes.
     """
     best = start = _Tried(z, doubtful, maps.angle_mean(z))
     most = start.angle_mean + repair.pays
     crowded = len(doubtful) > MOST_MENDED * surface.m  # there an embedding may well have less angle error
     folded = len(maps.flipped(z))
     progress("repair", 0.0)
-    for tried in _ways(surface, problem, z, maps, doubtful, fixed, progress):
+    patience = PATIENCE if repair is Repair.AUTO and surface.m > LARGE and not crowded else None
+    for tried in islice(_ways(surface, problem, z, maps, doubtful, fixed, progress), patience):
         if tried.angle_mean <= most and tried.rank < best.rank and len(tried.folds) <= folded:
             best = tried
         if not len(best.folds) and best.angle_mean <= start.angle_mean + CHEAP and not crowded:

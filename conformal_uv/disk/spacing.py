@@ -30,7 +30,8 @@ class CircleSpacing:
         if not self.arcs.any():
             self.arcs += 1.0
         held = np.angle(np.roll(zb[fixed], -1) / zb[fixed]) % (2.0 * np.pi)
-        self._stretch = np.where(held > 0.0, held, 2.0 * np.pi)  # a single one: all around
+        # A single one: all around. It over itself is 1 only to rounding, which has told of an arc of 1e-17.
+        self._stretch = np.where(held > 0.0, held, 2.0 * np.pi) if len(fixed) > 1 else np.full(1, 2.0 * np.pi)
         self.arcs = self.fitted(self.arcs)
 
     def shared(self, share: float) -> Real:
