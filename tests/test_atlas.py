@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 from meshes import annulus, fan, moebius_band, plate, scattered_disk, strip, wheel
@@ -215,3 +217,11 @@ def test_charts_are_made_when_they_are_looked_at():
     again = cuv.Surface.from_arrays(u.charts[7].mesh.V, u.charts[7].F)
     assert np.array_equal(surface.edges.twin, again.edges.twin) and np.array_equal(surface.V, again.V)
     assert surface.unit == again.unit and np.array_equal(surface.geometry.dot, again.geometry.dot)
+
+
+def test_results_go_from_process_to_process():
+    u = cuv.unwrap(*side_by_side([bumpy(plate(3, 3), k) for k in range(12)]))
+    again = pickle.loads(pickle.dumps(u))
+    assert np.array_equal(again.uv, u.uv) and again.summary == u.summary
+    assert again.charts[5].map.history == u.charts[5].map.history
+    assert np.array_equal(again.charts[5].distortion.angle_error, u.charts[5].distortion.angle_error)
