@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.arrays import scaled_each
 from ..mesh.geometry import TriangleGeometry, triangle_geometry
 from ..mesh.halfedges import HalfEdges, half_edges
 from ..mesh.loops import joined_loops
@@ -109,7 +110,7 @@ def sound_disks(
         edges = half_edges(corners, len(vertices))
         good = _are_manifolds(corners, edges, of_vertex, of_face, len(chosen))
         if good.all():
-            points, unit = _scaled(V[vertices], starts, of_vertex)
+            points, unit = scaled_each(V[vertices], of_vertex, len(chosen))
             geometry = triangle_geometry(points, corners)
             good = _have_room(points, geometry, starts, of_face)
         if good.all():
@@ -164,13 +165,6 @@ def _are_manifolds(corners: NDArray[np.int32], edges: HalfEdges, of_vertex: Ints
     euler = np.bincount(of_vertex, minlength=count) + np.bincount(of_face, minlength=count)
     euler -= np.bincount(of_vertex[edges.lo], minlength=count)
     return ~bad & (euler == 1)
-
-
-def _scaled(V: Real, starts: Ints, of_vertex: Ints) -> tuple[Real, Real]:
-    """As `mesh.arrays.scaled`, each mesh for itself."""
-    _, exponent = np.frexp(np.maximum.reduceat(np.abs(V).max(axis=1), starts[:-1]))
-    exponent = np.minimum(exponent, 1023)
-    return np.ldexp(V, -exponent[of_vertex][:, None]), np.ldexp(1.0, exponent)
 
 
 def _have_room(V: Real, geometry: TriangleGeometry, starts: Ints, of_face: Ints) -> Bools:

@@ -17,11 +17,11 @@ from scipy.fft import irfft, rfft
 from ..disk.angle_steps import gaps, in_order
 from ..disk.newton import LEAST_FORCING, SHORT_PART, SMALLEST_GAP
 from ..disk.preconditioner import FourierPreconditioner
-from ..optimize.line_search import HALVINGS, SUFFICIENT_DECREASE
+from ..optimize.rows import RowStep, line_search_rows
 from .boundary_rows import EnergyRows, centred_rows
 from .cg_rows import truncated_cg_rows
 
-__all__ = ["NewtonRows", "Step", "minimised_rows"]
+__all__ = ["NewtonRows", "minimised_rows"]
 
 Ints = NDArray[np.int64]
 Real = NDArray[np.float64]
@@ -30,15 +30,6 @@ Complex = NDArray[np.complex128]
 
 EPS = float(np.finfo(np.float64).eps)
 DEPENDENT = 1e-12  # of the largest normal, up to which another one says the same
-
-
-class Step(NamedTuple):
-    """A step of some rows (k,): energies and projected gradients (k,) before it, and parts of the direction taken."""
-
-    row: Ints
-    value: Real
-    norm: Real
-    length: Real
 
 
 class NewtonRows(NamedTuple):
@@ -51,7 +42,7 @@ class NewtonRows(NamedTuple):
         What is told of the others means nothing.
     value, norm, first : (r,) float64
         Energies at the end, and norms of the projected gradient at the end and at first.
-    steps : list of Step
+    steps : list of RowStep
     """
 
     theta: Real
@@ -59,7 +50,7 @@ class NewtonRows(NamedTuple):
     value: Real
     norm: Real
     first: Real
-    steps: list[Step]
+    steps: list[RowStep]
 
 
 def minimised_rows(
@@ -89,11 +80,11 @@ def minimised_rows(
     goal = np.maximum(SHORT_PART * tolerance, 64.0 * EPS * problem.degrees)
     value, norm, first = np.full((3, len(theta)), np.nan)
     converged = np.zeros(len(theta), dtype=bool)
-    steps: list[Step] = []
+    steps: list[RowStep] = []
     left = np.flatnonzero(_apart(theta))
     here = _Place(problem.some(left), theta[left])
     for number in range(max_iterations + 1):
-        value[left], norm[left] = here.energy.value, here.norm
+        value[left], norm[left] = here.value, here.norm
         if number == 0:
             first[left] = here.norm
             goal[left] = np.maximum(goal[left], SHORT_PART * relative_tolerance * here.norm)
@@ -104,11 +95,11 @@ def minimised_rows(
         left, here = left[~done], here.some(~done)
         direction, sound = here.directions()
         left, here, direction = left[sound], here.some(sound), direction[sound]
-        length, there = _line_search(here, direction)
+        length, there = here.searched(direction)
         taken = length > 0.0
-        steps.append(Step(left[taken], here.energy.value[taken], here.norm[taken], length[taken]))
-        theta[left[taken]] = there.energy.theta[taken]
-        taken &= _apart(there.energy.theta)
+        steps.append(RowStep(left[taken], here.value[taken], here.norm[taken], length[taken]))
+        theta[left[taken]] = there.point[taken]
+        taken &= _apart(there.point)
         left, here = left[taken], there.some(taken)
     return NewtonRows(theta, converged, value, norm, first, steps)
 
@@ -155,6 +146,16 @@ class _Place:
         self._gradient = self._projected(self.energy.gradient)
         self.norm: Real = np.linalg.norm(self._gradient, axis=1)
 
+    @property
+    def point(self) -> Real:
+        """The angles (r, nb)."""
+        return self.energy.theta
+
+    @property
+    def value(self) -> Real:
+        """The energies (r,)."""
+        return self.energy.value
+
     def some(self, kept: Bools) -> _Place:
         """Some of the rows."""
         if kept.all():
@@ -194,6 +195,18 @@ class _Place:
         direct = np.linalg.solve(H, -self._gradient[:, :, None])[:, :, 0]
         return self._projected(np.where(convex[:, None], direct, found)), sound
 
+    def searched(self, direction: Real) -> tuple[Real, _Place]:
+        """Parts (r,) of the directions, 0 where no step does, and where they lead."""
+        slope = np.einsum("rk,rk->r", self.energy.gradient, direction)
+        noise = EPS * (64.0 * (np.abs(self.value) + np.pi) + 4.0 * self.problem.degrees)
+
+        def move(rows: Ints, length: float) -> _Place:
+            problem = self.problem.some(rows)
+            return _Place(problem, problem.restored(in_order(self.point[rows], length * direction[rows])))
+
+        taken, theta, there = line_search_rows(self, slope, noise, move)
+        return taken, there if there is not None else _Place(self.problem, theta)
+
     def _truncated(self, H: Real, rows: Ints) -> Real:
         """Directions (k, nb) of some rows whose Hessians H (k, nb, nb) are not positive."""
         nb = H.shape[1]
@@ -219,27 +232,6 @@ class _Place:
         multiplier = np.linalg.solve(size, along[:, :, None])
         z = self.energy.z
         return np.asarray(self.problem.measure * (multiplier[:, 1] * z.imag - multiplier[:, 2] * z.real))
-
-
-def _line_search(here: _Place, direction: Real) -> tuple[Real, _Place]:
-    """Parts (r,) of the directions, 0 where no step does, and where they lead; as `optimize.line_search`."""
-    value, slope = here.energy.value, np.einsum("rk,rk->r", here.energy.gradient, direction)
-    noise = EPS * (64.0 * (np.abs(value) + np.pi) + 4.0 * here.problem.degrees)
-    taken, theta = np.zeros(len(slope)), here.energy.theta.copy()
-    left, length = np.arange(len(slope)), 1.0
-    for _ in range(HALVINGS):
-        problem = here.problem.some(left)
-        there = _Place(problem, problem.restored(in_order(here.energy.theta[left], length * direction[left])))
-        change = there.energy.value - value[left]
-        falls = (change <= SUFFICIENT_DECREASE * length * slope[left]) & (change < -noise[left])
-        falls |= (np.abs(change) <= noise[left]) & (there.norm < here.norm[left])
-        if falls.all() and len(left) == len(taken):
-            return np.ones(len(left)), there
-        taken[left[falls]], theta[left[falls]] = length, there.energy.theta[falls]
-        left, length = left[~falls], 0.5 * length
-        if not len(left):
-            break
-    return taken, _Place(here.problem, theta)
 
 
 def _apart(theta: Real) -> Bools:

@@ -12,6 +12,7 @@ from ..disk.shear_ratio import RatioRows, least_ratios
 from ..operators.dirichlet import DirichletProblem
 from ..operators.wirtinger import planar_sides, unfolded_sides, wirtinger
 from ..optimize import NewtonStep
+from ..optimize.rows import row_history
 from .boundary_rows import FluxMatrices
 from .disks import Disks, places
 from .loop_rows import LoopRows, loop_rows
@@ -56,11 +57,7 @@ class ShearAngles:
         made = self._rows[which][1]
         if np.isnan(made.value[place]):
             return ()
-        steps = []
-        for step in made.steps:
-            for at in np.flatnonzero(step.row == place):
-                steps.append(NewtonStep(float(step.value[at]), float(step.norm[at]), 0, float(step.length[at])))
-        return (*steps, NewtonStep(float(made.value[place]), float(made.norm[place]), 0, 0.0))
+        return row_history(made.steps, place, made.value[place], made.norm[place])
 
 
 def least_shears(

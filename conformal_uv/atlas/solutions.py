@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..disk.centre_cell import WORTH_WHILE
 from ..operators.dirichlet import DirichletProblem
 from ..optimize import NewtonStep
+from ..optimize.rows import RowStep, row_history
 from ..options import DiskOptions
 from ..threads import side_by_side
 from .boundary_rows import EnergyRows, FluxMatrices, centred_rows
@@ -34,15 +33,6 @@ def linear_positions(disks: Disks, problem: DirichletProblem, seen: Measures) ->
     return problem.extend(np.exp(1j * theta))
 
 
-class _Round(NamedTuple):
-    """A step of some disks (k,), ascending: energies and gradients before it, and parts of the direction taken."""
-
-    disk: Ints
-    value: Real
-    norm: Real
-    length: Real
-
-
 class NewtonSolver:
     """Newton's solutions of c disks, from the linear ones.
 
@@ -61,7 +51,7 @@ class NewtonSolver:
         count = len(disks)
         self._disks, self._seen, self._options = disks, seen, options
         self.S = FluxMatrices(problem, disks.first_boundary)
-        self.theta, self._rounds = seen.theta.copy(), list[_Round]()
+        self.theta, self._rounds = seen.theta.copy(), list[RowStep]()
         self.converged = np.zeros(count, dtype=bool)
         self._value, self._norm, self._first = np.full((3, count), np.nan)
         self._minimise(np.flatnonzero(seen.found), options.tolerance, held=True)
@@ -73,12 +63,7 @@ class NewtonSolver:
 
     def history(self, disk: int) -> tuple[NewtonStep, ...]:
         """A row for each iterate; directions are solved for without conjugate gradients."""
-        steps = []
-        for made in self._rounds:
-            at = int(np.searchsorted(made.disk, disk))
-            if at < len(made.disk) and made.disk[at] == disk:
-                steps.append(NewtonStep(float(made.value[at]), float(made.norm[at]), 0, float(made.length[at])))
-        return (*steps, NewtonStep(float(self._value[disk]), float(self._norm[disk]), 0, 0.0))
+        return row_history(self._rounds, disk, self._value[disk], self._norm[disk])
 
     def _minimise(self, chosen: Ints, tolerance: Real | float, *, held: bool) -> None:
         """Of the chosen disks, from where they are; `tolerance` is of all disks or of each (c,)."""
@@ -90,7 +75,7 @@ class NewtonSolver:
             self._value[rows.disk], self._norm[rows.disk] = found.value, found.norm
             if held:
                 self._first[rows.disk] = found.first
-            self._rounds += [_Round(rows.disk[step.row], step.value, step.norm, step.length) for step in found.steps]
+            self._rounds += [RowStep(rows.disk[step.row], step.value, step.norm, step.length) for step in found.steps]
 
     def _minimised(self, rows: LoopRows, tolerance: Real | float, *, held: bool) -> NewtonRows:
         return minimised_rows(
@@ -146,5 +131,5 @@ class NewtonSolver:
             self._value[gone], self._norm[gone] = value[gone], norm[gone]
             for number in range(made_before, len(self._rounds)):
                 made = self._rounds[number]
-                stay = ~np.isin(made.disk, gone)
-                self._rounds[number] = _Round(made.disk[stay], made.value[stay], made.norm[stay], made.length[stay])
+                stay = ~np.isin(made.row, gone)
+                self._rounds[number] = RowStep(made.row[stay], made.value[stay], made.norm[stay], made.length[stay])

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..free import FreeMap
-from ..mesh.arrays import squared_units
+from ..mesh.arrays import scaled_each, squared_units
 from ..mesh.geometry import triangle_geometry
 from ..operators.distortion import RATIOS, Distortion, distortion_of
 from ..operators.wirtinger import planar_sides, signed_double_areas
@@ -103,7 +103,8 @@ class ChartList(Sequence[Chart]):
         """
         own = np.flatnonzero(taken[self.chart_of_triangle])
         chart = self.chart_of_triangle[own]
-        V, unit = self.meshes.scaled_vertices(taken)
+        of_vertex = self.meshes.chart_of_vertex  # vertices of no chart come last
+        V, unit = scaled_each(self.meshes.V[: len(of_vertex)], of_vertex, len(self))
         corners = np.ascontiguousarray(self.meshes.F_of_all[own].T.astype(np.int32))
         z = self.solutions.z.view(np.float64).reshape(-1, 2)
         found = distortion_of(triangle_geometry(V, corners), corners, z)

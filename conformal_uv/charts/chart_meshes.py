@@ -124,16 +124,6 @@ class ChartMeshes:
         out[self.chart_of_vertex[own[np.isin(self.vertex_of_site[site[own]], vertices)]]] = True
         return out
 
-    def scaled_vertices(self, charts: NDArray[np.bool_]) -> tuple[Real, Real]:
-        """V with some charts (count,) scaled as `mesh.arrays.scaled` does, and the unit of each, (count,)."""
-        some = charts[self.chart_of_vertex]
-        largest = np.zeros(len(charts))
-        np.maximum.at(largest, self.chart_of_vertex[some], np.abs(self.V[: len(some)][some]).max(axis=1))
-        exponent = np.minimum(np.frexp(largest)[1], 1023)
-        V = self.V.copy()
-        V[: len(some)][some] = np.ldexp(V[: len(some)][some], -exponent[self.chart_of_vertex[some]][:, None])
-        return V, np.ldexp(1.0, exponent)
-
     @cached_property
     def F_of_all(self) -> Ints:
         """F with the vertices numbered through all charts."""

@@ -18,6 +18,7 @@ from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.wirtinger import planar_sides, unfolded_sides, wirtinger
 from ..optimize import NewtonStep
+from ..optimize.rows import row_history
 from .shear_ratio import least_ratios
 
 __all__ = ["area_form", "few_enough", "least_shear"]
@@ -90,10 +91,4 @@ def _least_ratio(above: Complex | Real, below: Complex, theta: Real) -> tuple[Re
     found = least_ratios(above[None].astype(np.complex128), below[None], theta[None])
     if np.isnan(found.value[0]):
         return theta, ()
-    made = [
-        NewtonStep(float(step.value[0]), float(step.norm[0]), 0, float(step.length[0]))
-        for step in found.steps
-        if len(step.row)
-    ]
-    last = NewtonStep(float(found.value[0]), float(found.norm[0]), 0, 0.0)
-    return found.theta[0], (*made, last)
+    return found.theta[0], row_history(found.steps, 0, found.value[0], found.norm[0])

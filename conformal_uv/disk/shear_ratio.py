@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..optimize.line_search import SUFFICIENT_DECREASE
+from ..optimize.rows import RowStep, line_search_rows
 from .angle_steps import gaps
 
-__all__ = ["RatioRows", "RatioStep", "least_ratios"]
+__all__ = ["RatioRows", "least_ratios"]
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -23,20 +23,10 @@ Ints = NDArray[np.int64]
 LEAST_BELOW = 1e-12  # of the form below, both scaled to 1
 TOLERANCE = 1e-13  # of the gradient; quadratic convergence ends at rounding
 MOST_STEPS = 100
-HALVINGS = 30
 LEAST_CURVATURE = 1e-6  # of the largest eigenvalue
 SMALLEST_GAP = 1e-12  # radians, at the start
 LONGEST = 3.0  # change of a logarithm in one step
 NOISE = 64.0 * np.finfo(np.float64).eps
-
-
-class RatioStep(NamedTuple):
-    """A step of some rows (k,): ratios and norms of gradients before it, and parts of the direction taken."""
-
-    row: Ints
-    value: Real
-    norm: Real
-    length: Real
 
 
 class RatioRows(NamedTuple):
@@ -49,7 +39,7 @@ class RatioRows(NamedTuple):
     theta: Real
     value: Real
     norm: Real
-    steps: list[RatioStep]
+    steps: list[RowStep]
 
 
 class _Place:
@@ -85,6 +75,21 @@ class _Place:
     def moved(self, rows: Ints, logs: Real) -> _Place:
         """Some of the rows elsewhere."""
         return _Place(self._forms[0][rows], self._forms[1][rows], logs)
+
+    @property
+    def point(self) -> Real:
+        """The logarithms (r, nb)."""
+        return self.logs
+
+    def searched(self) -> tuple[Real, Real]:
+        """Parts (r,) of the directions, 0 where none lowers the ratio, and the logarithms there."""
+        direction, noise = self.directions(), NOISE * (1.0 + np.abs(self.value))
+        slope = np.einsum("rk,rk->r", self.gradient, direction)
+
+        def move(rows: Ints, length: float) -> _Place:
+            return self.moved(rows, self.logs[rows] + length * direction[rows])
+
+        return line_search_rows(self, slope, noise, move)[:2]
 
     def directions(self) -> Real:
         """Newton's, of descent; all logarithms alike are no direction."""
@@ -135,37 +140,18 @@ def least_ratios(above: Complex, below: Complex, theta: Real) -> RatioRows:
     here = _Place(above, below, np.log(np.maximum(gaps(theta[left]), SMALLEST_GAP)))
     open_ = np.isfinite(here.value)
     left, here = left[open_], here.some(open_)
-    steps: list[RatioStep] = []
+    steps: list[RowStep] = []
     for _ in range(MOST_STEPS):
         value[left], norm[left], theta[left] = here.value, here.norm, here.theta
         open_ = here.norm > TOLERANCE
         left, here = left[open_], here.some(open_)
         if not len(left):
             break
-        length, logs = _searched(here)
+        length, logs = here.searched()
         taken = length > 0.0
-        steps.append(RatioStep(left[taken], here.value[taken], here.norm[taken], length[taken]))
+        steps.append(RowStep(left[taken], here.value[taken], here.norm[taken], length[taken]))
         left, here = left[taken], here.moved(np.flatnonzero(taken), logs[taken])
     return RatioRows(theta, value, norm, steps)
-
-
-def _searched(here: _Place) -> tuple[Real, Real]:
-    """Parts (r,) of the directions, 0 where none lowers the ratio, and the logarithms there."""
-    direction = here.directions()
-    slope = np.einsum("rk,rk->r", here.gradient, direction)
-    taken, logs = np.zeros(len(slope)), here.logs.copy()
-    left, length = np.arange(len(slope)), 1.0
-    for _ in range(HALVINGS):
-        there = here.moved(left, here.logs[left] + length * direction[left])
-        change = there.value - here.value[left]
-        noise = NOISE * (1.0 + np.abs(here.value[left]))
-        falls = (change <= SUFFICIENT_DECREASE * length * slope[left]) & (change < -noise)
-        falls |= (np.abs(change) <= noise) & (there.norm < here.norm[left])
-        taken[left[falls]], logs[left[falls]] = length, there.logs[falls]
-        left, length = left[~falls], 0.5 * length
-        if not len(left):
-            break
-    return taken, logs
 
 
 def _angles(part: Real) -> Real:

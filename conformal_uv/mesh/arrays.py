@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DegenerateFaceError, MeshError, NonFiniteError, UnreferencedVertexError, listed
 
-__all__ = ["check_referenced", "face_array", "on_one_line", "scaled", "squared_units", "vertex_array"]
+__all__ = ["check_referenced", "face_array", "on_one_line", "scaled", "scaled_each", "squared_units", "vertex_array"]
 
 MOST_VERTICES = 2**31 - 1
 FEW = 100  # vertices, which nearly always tell already that they are on no line
@@ -115,6 +115,17 @@ def scaled(V: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     _, exponent = np.frexp(max(V.max(), -V.min()))
     exponent = min(exponent, 1023)  # 2^1024 is no double
     return np.ldexp(V, -exponent), float(np.ldexp(1.0, exponent))
+
+
+def scaled_each(
+    V: NDArray[np.float64], owner: NDArray[np.int64], count: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """As `scaled`, each of so many meshes for itself, `owner` (n,) being that of each vertex; the units (count,)."""
+    largest = np.zeros(count)
+    np.maximum.at(largest, owner, np.abs(V).max(axis=1))
+    _, exponent = np.frexp(np.where(np.isfinite(largest), largest, 1.0))
+    exponent = np.minimum(exponent, 1023)
+    return np.ldexp(V, -exponent[owner][:, None]), np.ldexp(1.0, exponent)
 
 
 def squared_units(areas: NDArray[np.float64], unit: float) -> NDArray[np.float64]:
