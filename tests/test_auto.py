@@ -114,6 +114,7 @@ def test_least_shear_is_a_minimum_in_order(monkeypatch: pytest.MonkeyPatch) -> N
     (by_flux, steps), (by_area, _), *_ = least_shear(mapper.surface, problem, theta)
     np.testing.assert_array_equal(found[0][0], by_area)  # by its own flux only where the Laplacian is another one's
     assert (np.diff([step.energy for step in steps]) <= 0.0).all() and steps[-1].step_length == 0.0
+    assert len(steps) <= 8  # quadratic convergence: the Hessian is that of the ratio
     np.testing.assert_allclose(by_flux, by_area, atol=1e-5)  # the same energy by two ways
 
     def ratio(angles: NDArray[np.float64]) -> float:

@@ -174,5 +174,4 @@ def _have_room(V: Real, geometry: TriangleGeometry, starts: Ints, of_face: Ints)
     spare = lengths.sum(axis=0) - 2.0 * lengths.max(axis=0)
     bad = extent < LEAST_EXTENT
     bad[of_face[spare <= ROOM]] = True
-    bad[of_face[geometry.degenerate]] = True
     return ~bad
