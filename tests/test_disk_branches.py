@@ -16,6 +16,7 @@ from conformal_uv.disk.gauge import CentreGauge, PinGauge
 from conformal_uv.disk.harmonic_measure import centred_measure
 from conformal_uv.disk.newton import NewtonResult, _newton_direction, minimise_boundary_energy
 from conformal_uv.disk.placement import CUBE_ROOTS, place_pins
+from conformal_uv.disk.preconditioner import FourierPreconditioner
 from conformal_uv.disk.repair import _where_better, recentred
 from conformal_uv.disk.tangent import Tangent
 from conformal_uv.mesh import Surface
@@ -52,7 +53,7 @@ def test_newtons_direction_takes_the_gradient_away_along_the_constraints() -> No
     gauge = CentreGauge(measure, theta)
     here = BoundaryEnergy(problem, gauge.restore(theta), minus_area=True)
     links = np.zeros(len(theta), dtype=bool)
-    tangent = Tangent(gauge, here.theta, links)
+    tangent = Tangent(gauge, here.theta, links, problem.boundary_inverse)
     gradient = tangent.project(here.gradient)
     norm = float(np.linalg.norm(gradient))
     # The tolerance is such that the system is solved to 1e-5 of the gradient.
@@ -61,7 +62,10 @@ def test_newtons_direction_takes_the_gradient_away_along_the_constraints() -> No
     ahead, behind = (
         BoundaryEnergy(problem, gauge.restore(here.theta + s * direction), minus_area=True) for s in (step, -step)
     )
-    change = [Tangent(gauge, there.theta, links).project(there.gradient) for there in (ahead, behind)]
+    change = [
+        Tangent(gauge, there.theta, links, problem.boundary_inverse).project(there.gradient)
+        for there in (ahead, behind)
+    ]
     slope = tangent.project(change[0] - change[1]) / (2.0 * step)
     assert np.linalg.norm(slope + gradient) < 1e-3 * norm
     multipliers, *_ = np.linalg.lstsq(gauge.normals(here.theta), here.gradient, rcond=None)
@@ -219,7 +223,7 @@ def test_pins_that_are_linked_hold_no_more_than_they_say() -> None:
     """Two of three pins in one chain: two constraints, and all that leaves both chains at rest is free."""
     links = np.zeros(12, dtype=bool)
     links[[3, 4, 8]] = True
-    tangent = Tangent(PinGauge(np.array([3, 5, 10])), np.linspace(0.0, 6.0, 12), links)
+    tangent = Tangent(PinGauge(np.array([3, 5, 10])), np.linspace(0.0, 6.0, 12), links, FourierPreconditioner(12))
     for seed in range(5):
         free = np.random.default_rng(seed).normal(size=12)
         free[[3, 4, 5, 10]], free[9] = 0.0, free[8]

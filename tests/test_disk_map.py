@@ -642,7 +642,7 @@ def test_newton_never_raises_the_energy(name: str) -> None:
     mesh, options = DESCENTS[name]
     m = cuv.disk_map(*mesh, method="newton", **options)
     energy = np.array([row.energy for row in m.history])
-    assert len(energy) > 3
+    assert len(energy) > 2
     assert np.diff(energy).max() <= 64 * EPS * (np.pi + abs(energy[0]))
     assert energy[-1] < energy[0]
     assert all(isinstance(row, NewtonStep) and 0.0 <= row.step_length <= 1.0 for row in m.history)

@@ -20,6 +20,7 @@ from ..progress import Progress
 from .boundary_energy import BoundaryEnergy
 from .gauge import CentreGauge
 from .harmonic_measure import CentredMeasure
+from .preconditioner import FourierPreconditioner
 from .relative_energy import few_enough
 from .solution import LinearStart, Solution, solve_newton, solve_relative
 from .tangent import Tangent
@@ -85,7 +86,9 @@ def _promising(surface: Surface, energy: BoundaryEnergy, measure: CentredMeasure
     if len(energy.theta) <= FEW:
         return True
     gauge = CentreGauge(measure.vertex_measure, energy.theta)
-    tangent = Tangent(gauge, energy.theta, np.zeros(len(energy.theta), dtype=bool))
+    tangent = Tangent(
+        gauge, energy.theta, np.zeros(len(energy.theta), dtype=bool), FourierPreconditioner(len(energy.theta))
+    )
     gradient = tangent.project(energy.gradient)
     part = 0.5 * float(gradient @ tangent.precondition(gradient)) / max(energy.value, TINY)
     return part > WORTH and part * _angle_mean(surface, energy.positions()) > PROMISE

@@ -11,11 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..operators.dirichlet import DirichletProblem
+from ..operators.neumann_strip import SHORT
 from ..optimize import NewtonStep, Status, line_search, log_fraction, truncated_cg
 from ..progress import Progress
 from .angle_steps import gaps, in_order
 from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge
+from .preconditioner import preconditioner
 from .tangent import Tangent
 
 __all__ = ["NewtonResult", "minimise_boundary_energy"]
@@ -25,11 +27,12 @@ log = logging.getLogger(__name__)
 
 EPS = np.finfo(np.float64).eps
 SMALLEST_GAP = 1e-12  # radians; neighbours as near as that are linked
-LEAST_FORCING = 1e-3  # of the gradient is left by a direction; the energy is so nearly quadratic that this pays
+FIRST_FORCING = 0.01  # of the gradient is left by a direction, at most,
+LEAST_FORCING = 1e-3  # and at least; the energy is so nearly quadratic that this pays
 LAST_FORCING = 1e-5  # and by the last one,
 LAST_PART = 0.7  # of the tolerance; the rest is for what is not quadratic
-SHORT = 96  # boundary vertices, where one step more costs next to nothing,
-SHORT_PART = 0.01  # and the tolerance is met by so much more: then nobody sees how directions were found
+SHORT_PART = 0.01  # of it where the boundary is short: one step more costs next to nothing, and then nobody sees how
+# directions were found
 
 
 class NewtonResult(NamedTuple):
@@ -78,14 +81,15 @@ def minimise_boundary_energy(
     asked, part = tolerance, SHORT_PART if len(theta) <= SHORT else 1.0
     tolerance = max(part * asked, rounding)
     first, status = None, Status.CONVERGED
+    inverse = preconditioner(problem)
     while True:  # every round makes a step or a link, and links are no more than vertices
-        tangent = Tangent(gauge, energy.theta, links)
+        tangent = Tangent(gauge, energy.theta, links, inverse)
         norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         if norm <= tolerance:
             parting = links & ~kept & (tangent.pull_of_links(energy.gradient) < -tolerance)
             if parting.any():  # each link is let go at most once, so that this ends
                 links, kept = links & ~parting, kept | parting
-                tangent = Tangent(gauge, energy.theta, links)
+                tangent = Tangent(gauge, energy.theta, links, inverse)
                 norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         if first is None:
             first = norm
@@ -125,7 +129,7 @@ def _newton_direction(
     gradient = tangent.project(energy.gradient)
     bend = gauge.curvature(energy.theta, energy.gradient)
     norm = float(np.linalg.norm(gradient))
-    goal = min(0.1, max(LEAST_FORCING, 0.5 * norm)) * norm
+    goal = min(FIRST_FORCING, max(LEAST_FORCING, 0.5 * norm)) * norm
     if LAST_PART * tolerance > LAST_FORCING * norm:  # near enough to end with this step
         goal = LAST_PART * tolerance
     return truncated_cg(
@@ -147,7 +151,7 @@ def _line_search(
         return BoundaryEnergy(energy.problem, theta, minus_area=energy.minus_area)
 
     def gradient_falls(there: BoundaryEnergy) -> bool:
-        tangent_there = Tangent(gauge, there.theta, tangent.links)
+        tangent_there = Tangent(gauge, there.theta, tangent.links, tangent.inverse)
         return bool(np.linalg.norm(tangent_there.project(there.gradient)) < norm)
 
     return line_search(energy.value, slope, move, gradient_falls, length=1.0, noise=noise)

@@ -1,19 +1,31 @@
-"""A mesh-independent preconditioner for the Hessian in the boundary angles.
+"""Preconditioners for the Hessian in the boundary angles, about the inverse of the Dirichlet-to-Neumann map.
 
 In the angle the Hessian of the continuous problem is the Fourier multiplier |k| - 1, the norm of H^1/2 less its
 Moebius part. That norm keeps its size under changes of coordinate, so the number of a vertex along the boundary
-serves as the coordinate: no interpolation, and no two vertices fall into one cell of a grid.
+serves as the coordinate: no interpolation, and no two vertices fall into one cell of a grid. Of short boundaries that
+is enough; on long ones the triangles along the boundary are heeded, too, see `NeumannStrip`.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, rfft
 
-__all__ = ["FourierPreconditioner"]
+from ..operators.dirichlet import DirichletProblem
+from ..operators.neumann_strip import SHORT
+
+__all__ = ["FourierPreconditioner", "preconditioner"]
 
 Real = NDArray[np.float64]
+
+
+def preconditioner(problem: DirichletProblem) -> Callable[[Real], Real]:
+    """The one for this boundary."""
+    nb = len(problem.boundary)
+    return FourierPreconditioner(nb) if nb <= SHORT else problem.boundary_inverse
 
 
 class FourierPreconditioner:

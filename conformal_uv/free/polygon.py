@@ -52,7 +52,8 @@ def closing_lengths(headings: Real, wanted: Real) -> Real | None:
             break
         step = np.linalg.solve((way * lengths) @ way.T, slope)
         part = min(1.0, 2.0 / float(np.linalg.norm(step)))
-        while (there := wanted * np.exp(-(x + part * step) @ way)).sum() > lengths.sum() and part > SHORTEST_STEP:
+        highest = lengths.sum() + ROUNDING * total  # near the minimum sums are equal but for rounding
+        while (there := wanted * np.exp(-(x + part * step) @ way)).sum() > highest and part > SHORTEST_STEP:
             part *= 0.5
         if part <= SHORTEST_STEP:  # down to rounding
             break

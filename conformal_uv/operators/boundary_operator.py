@@ -1,8 +1,8 @@
 """The Dirichlet-to-Neumann map of a factorized surface: boundary values to the flux of their harmonic extension.
 
-It is S = Lbb - Lbi Lii^-1 Lib, applied with the factorization at hand and never formed. In any coordinate that goes
-once around the boundary S is the Fourier multiplier |k|, but for what is smooth; the number of a vertex along the
-boundary serves as the coordinate, so that conjugate gradients are done in about twenty steps on any mesh.
+It is S = Lbb - Lbi Lii^-1 Lib, applied with the factorization at hand and never formed. Conjugate gradients invert it,
+preconditioned by the mesh's own strip along the boundary. On short boundaries a Fourier multiplier does: in any
+coordinate that goes once around, the number of a vertex for instance, S is |k| but for what is smooth.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..errors import SolverError
 from ..progress import Progress
 from .dirichlet import DirichletProblem
+from .neumann_strip import SHORT
 
 __all__ = ["BoundaryOperator"]
 
@@ -38,7 +39,11 @@ class BoundaryOperator:
 
     def precondition(self, r: Complex) -> Complex:
         """About ``S^+ r``, with mean 0."""
-        return np.fft.ifft(np.fft.fft(r) * self._multiplier)
+        if len(r) <= SHORT:
+            return np.fft.ifft(np.fft.fft(r) * self._multiplier)
+        columns = self._problem.boundary_inverse(r.view(np.float64).reshape(-1, 2))
+        smooth: Complex = np.ascontiguousarray(columns).view(np.complex128)[:, 0]
+        return smooth - smooth.mean()
 
     def solved(self, r: Complex, tolerance: float, progress: Progress, stage: str) -> Complex:
         """x with ``S x = r`` and mean 0, to this part of the norm of r; the sum of r is left out.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from ..linear.linear_system import LinearSolver, LowerTriangle
 from ..linear.nested_dissection import nested_dissection
 from ..progress import Progress
 from .edge_laplacian import EdgeLaplacian
+from .neumann_strip import NeumannStrip
 
 __all__ = ["DirichletProblem", "interior_matrix"]
 
@@ -114,6 +116,12 @@ class DirichletProblem:
         d = np.arange(nb)
         values = np.concatenate((w, w, self._degree[self.boundary]))
         self.Lbb = csr_array((values, (np.concatenate((i, j, d)), np.concatenate((j, i, d)))), shape=(nb, nb))
+
+    @cached_property
+    def boundary_inverse(self) -> NeumannStrip:
+        """About the inverse of what `flux` applies to boundary values: a preconditioner."""
+        backend = "auto" if self.backend == "multigrid" else self.backend
+        return NeumannStrip(self.laplacian, self.boundary, self.n, backend)
 
     def report_to(self, progress: Progress) -> None:
         """Where solutions that take long are to report from now on."""
