@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
@@ -29,13 +31,17 @@ class Cholmod:
         from cvxopt import cholmod, spmatrix
         from cvxopt import matrix as dense
 
+        self._order, given = order, {}
+        if order is not None:  # neighbours in the order of elimination lie side by side in memory, too
+            matrix, passing = matrix.reordered(order), matrix
+            passing.taken_over()
+            given = {"p": dense(np.arange(matrix.n))}
         columns = np.repeat(np.arange(matrix.n), np.diff(matrix.indptr))
         rows = matrix.indices.astype(np.int64)
         lower = spmatrix(dense(matrix.data), dense(rows), dense(columns), (matrix.n, matrix.n))
         del columns, rows
         matrix.taken_over()
         self._n, self._dense, self._sparse, self._cholmod = matrix.n, dense, spmatrix, cholmod
-        given = {} if order is None else {"p": dense(order.astype(np.int64))}
         try:
             with cholmod_options(**({} if order is None else KEEP_ORDER)):
                 self._factor = cholmod.symbolic(lower, uplo="L", **given)
@@ -50,13 +56,13 @@ class Cholmod:
         progress("factorization", 1.0)
 
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
-        columns = self._dense(rhs.reshape(len(rhs), -1))
+        columns = self._dense((rhs if self._order is None else rhs.take(self._order, axis=0)).reshape(len(rhs), -1))
         try:
             with cholmod_options():
                 self._cholmod.solve(self._factor, columns)
         except FAILURES as error:
             raise _failed(self._n, error) from error
-        return np.array(columns).reshape(rhs.shape)
+        return self._restored(np.array(columns).reshape(rhs.shape))
 
     def solve_at(self, rows: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.float64]:
         """CHOLMOD takes the columns of a sparse right-hand side together, dense ones one after the other.
@@ -69,6 +75,8 @@ class Cholmod:
             rhs = np.zeros((n, k))
             rhs[rows] = values
             return self.solve(rhs)
+        if self._order is not None:
+            rows = self._number.take(rows)
         columns = np.repeat(np.arange(k), len(rows))
         entries = self._dense(np.ascontiguousarray(values.T).reshape(-1))
         sparse = self._sparse(entries, self._dense(np.tile(rows, k)), self._dense(columns), (n, k))
@@ -82,7 +90,18 @@ class Cholmod:
             full = np.zeros(n * k)
             full[np.array(found.I).reshape(-1) + n * np.array(found.J).reshape(-1)] = out
             out = full
-        return out.reshape(k, n).T
+        return self._restored(out.reshape(k, n).T)
+
+    @cached_property
+    def _number(self) -> NDArray[np.int64]:
+        """Place of each unknown in the order."""
+        number = np.empty(self._n, dtype=np.int64)
+        number[self._order] = np.arange(self._n)
+        return number
+
+    def _restored(self, solution: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A solution in the order of elimination, in the unknowns' own."""
+        return solution if self._order is None else solution.take(self._number, axis=0)
 
     def report_to(self, progress: Progress) -> None:
         """Solutions are too fast to tell of."""

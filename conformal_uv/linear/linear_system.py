@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csc_array
 
 from ..progress import Progress
 
@@ -36,6 +37,17 @@ class LowerTriangle:
     def n(self) -> int:
         """Order of the matrix."""
         return self._n
+
+    def reordered(self, order: NDArray[np.int32]) -> LowerTriangle:
+        """The matrix of the unknowns in another order, the first of which is ``order[0]``."""
+        n = self.n
+        number = np.empty(n, dtype=np.int32)
+        number[order] = np.arange(n, dtype=np.int32)
+        row, column = number.take(self.indices), np.repeat(number, np.diff(self.indptr))
+        ends = np.maximum(row, column), np.minimum(row, column)
+        found = csc_array((self.data, ends), shape=(n, n))
+        found.sort_indices()
+        return LowerTriangle(found.data, found.indices, found.indptr, passing=True)
 
     def taken_over(self) -> None:
         """Called by a solver that does not need the arrays any more."""

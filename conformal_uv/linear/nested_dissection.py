@@ -4,13 +4,16 @@ A. George, "Nested dissection of a regular finite element mesh", 1973: vertices 
 after both parts, and so on within each part. Here the parts are those of a k-d tree over the positions (cut in the
 middle across the longer extent), and all its separators come out at once. With the cells of the tree numbered so that
 each bit tells a side of a cut, an edge is cut where the numbers of its ends first differ, so a vertex separates its
-cell as soon as some neighbour has a number that differs there and is larger.
+cell as soon as some neighbour has a number that differs there and is larger. The first cuts, where most of the work of
+an elimination is, are covered by as few vertices as possible, of both sides: D. Koenig, "Gráfok és mátrixok", 1931.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import breadth_first_order, maximum_bipartite_matching
 
 from ..threads import side_by_side
 
@@ -25,6 +28,7 @@ SAMPLES = 16  # vertices of a cell, about, that tell where to cut it
 FEW = 1024  # cells
 RESOLUTION = 30  # bits of a coordinate
 MOST_LEVELS = 30  # so that numbers of cells fit into 32 bits
+COVERED = 9  # first cuts that as few vertices as possible are found for
 WORST = 30.0  # work of the elimination, over that of cells of n vertices being cut by sqrt(n)
 
 
@@ -47,9 +51,12 @@ def nested_dissection(points: NDArray[np.float64], indices: Index, indptr: NDArr
     if levels == 0:
         return np.arange(n, dtype=np.int32)
     cell = _cells(points, levels)
-    highest = _highest_neighbour(cell, indices, indptr)
     # Bits, counted from 1, at which a vertex separates; 0 for those inside a leaf.
-    level = np.frexp((cell ^ highest).astype(np.float64))[1].astype(np.int64)
+    level = _first_separators(cell, levels, indices, indptr)
+    first = level > 0
+    highest = _highest_neighbour(np.where(first, -1, cell), indices, indptr)
+    later = np.frexp((cell ^ np.maximum(highest, cell)).astype(np.float64))[1].astype(np.int64)
+    level = np.where(first, level, later)
     # A separator comes after the last vertex of the cell that it parts, and after finer ones that end there too.
     last = cell | ((np.int64(1) << level) - 1)
     key = (last << 5) | level
@@ -120,6 +127,38 @@ def _cuts(grid: NDArray[np.int32], cell: Cells, cells: int) -> tuple[NDArray[np.
     middle = np.cumsum(count) - count + count // 2
     median = key.take(middle, mode="clip") & ((1 << RESOLUTION) - 1)
     return widest, np.where(count > 0, median, 0).astype(np.int32)
+
+
+def _first_separators(cell: Cells, levels: int, indices: Index, indptr: NDArray[np.integer]) -> Cells:
+    """At which of the first cuts each vertex separates, (n,), the bit counted from 1; 0 for most."""
+    found = np.zeros(len(cell), dtype=np.int64)
+    last = max(levels - COVERED, 0)
+    column = np.repeat(np.arange(len(cell), dtype=np.int32), np.diff(indptr))
+    differ = cell.take(indices) ^ cell.take(column)
+    cut = np.flatnonzero(differ >= np.int64(1) << last)
+    i, j, bit = indices.take(cut), column.take(cut), np.frexp(differ.take(cut).astype(np.float64))[1]
+    for level in range(levels, last, -1):
+        here = (bit == level) & (found.take(i) == 0) & (found.take(j) == 0)
+        a, b = i[here], j[here]
+        lower = (cell.take(a) >> (level - 1)) & 1 == 0
+        found[_least_cover(np.where(lower, a, b), np.where(lower, b, a))] = level
+    return found
+
+
+def _least_cover(one: Index, other: Index) -> Index:
+    """The fewest vertices that every edge from `one` side to the `other` has one of."""
+    rows, i = np.unique(one, return_inverse=True)
+    columns, j = np.unique(other, return_inverse=True)
+    m, k = len(rows), len(columns)
+    match = maximum_bipartite_matching(csr_array((np.ones(len(i), np.int8), (i, j)), shape=(m, k)), "column")
+    matched, free = np.flatnonzero(match >= 0), np.flatnonzero(match < 0)
+    # What is reached from free vertices along edges of which every second one is matched.
+    source = np.concatenate((i, m + match[matched], np.full(len(free), m + k)))
+    target = np.concatenate((m + j, matched, free))
+    ways = csr_array((np.ones(len(source), np.int8), (source, target)), shape=(m + k + 1, m + k + 1))
+    reached = np.zeros(m + k + 1, dtype=bool)
+    reached[breadth_first_order(ways, m + k, return_predecessors=False)] = True
+    return np.concatenate((rows[~reached[:m]], columns[reached[m:-1]]))
 
 
 def _highest_neighbour(cell: Cells, indices: Index, indptr: NDArray[np.integer]) -> Cells:
