@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
+from scipy.sparse.csgraph import maximum_bipartite_matching
 from scipy.sparse.linalg import splu
 
 import conformal_uv as cuv
 from conformal_uv import samples
 from conformal_uv.linear.backends import linear_solver
 from conformal_uv.linear.linear_system import LowerTriangle
+from conformal_uv.linear.nested_dissection import _least_cover as least_cover
 from conformal_uv.linear.nested_dissection import nested_dissection
 from conformal_uv.mesh.surface import Surface
 from conformal_uv.operators.dirichlet import interior_matrix
@@ -110,3 +114,41 @@ def test_the_map_does_not_depend_on_the_numbering() -> None:
     one = cuv.disk_map(V, F, method="linear", boundary_vertex=0)
     other = cuv.disk_map(W, place[F][rng.permutation(len(F))], method="linear", boundary_vertex=int(place[0]))
     np.testing.assert_allclose(other.uv[place], one.uv, rtol=0, atol=1e-10)
+
+
+def test_a_cut_is_covered_by_the_fewest_vertices() -> None:
+    """As many as a largest matching has edges: a chain, a star from either side, and edges by chance."""
+    rng = np.random.default_rng(4)
+    chance = np.unique(np.column_stack((rng.integers(0, 40, 90), 100 + rng.integers(0, 40, 90))), axis=0)
+    for edges, fewest in (
+        (np.array([[0, 10], [1, 10], [1, 11], [2, 11], [2, 12]]), 3),
+        (np.array([[0, 10], [0, 11], [0, 12]]), 1),
+        (np.array([[0, 10], [1, 10], [2, 10], [3, 11]]), 2),
+        (chance, None),
+    ):
+        i, j = edges.T.astype(np.int32)
+        cover = least_cover(i, j)
+        assert (np.isin(i, cover) | np.isin(j, cover)).all() and len(np.unique(cover)) == len(cover)
+        pattern = csc_array((np.ones(len(i)), (i, j)), shape=(200, 200)).tocsr()
+        assert len(cover) == (maximum_bipartite_matching(pattern) >= 0).sum()
+        assert fewest is None or len(cover) == fewest
+
+
+def test_covered_cuts_make_less_work(monkeypatch) -> None:
+    matrix_points, matrix = interior(*MESHES["mask"])
+    module = sys.modules[nested_dissection.__module__]
+    filled = []
+    for covered in (1 << 10, 1 << 30):
+        monkeypatch.setattr(module, "COVERED", covered)
+        order = nested_dissection(matrix_points, matrix.indices, matrix.indptr)
+        assert order is not None and (np.sort(order) == np.arange(matrix.n)).all()
+        filled.append(fill(symmetric(matrix), order))
+    assert filled[0] < filled[1]
+
+
+def test_a_matrix_in_another_order_is_the_same_matrix() -> None:
+    _, matrix = interior(*samples.mask(500))
+    order = np.random.default_rng(2).permutation(matrix.n).astype(np.int32)
+    found = matrix.reordered(order)
+    np.testing.assert_array_equal(symmetric(found).toarray(), symmetric(matrix).toarray()[np.ix_(order, order)])
+    assert (found.indices[found.indptr[:-1]] == np.arange(matrix.n)).all()

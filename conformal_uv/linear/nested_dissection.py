@@ -28,7 +28,7 @@ SAMPLES = 16  # vertices of a cell, about, that tell where to cut it
 FEW = 1024  # cells
 RESOLUTION = 30  # bits of a coordinate
 MOST_LEVELS = 30  # so that numbers of cells fit into 32 bits
-COVERED = 9  # first cuts that as few vertices as possible are found for
+COVERED = 1 << 14  # vertices of a cell, from which on as few as possible are found to separate it
 WORST = 30.0  # work of the elimination, over that of cells of n vertices being cut by sqrt(n)
 
 
@@ -132,7 +132,9 @@ def _cuts(grid: NDArray[np.int32], cell: Cells, cells: int) -> tuple[NDArray[np.
 def _first_separators(cell: Cells, levels: int, indices: Index, indptr: NDArray[np.integer]) -> Cells:
     """At which of the first cuts each vertex separates, (n,), the bit counted from 1; 0 for most."""
     found = np.zeros(len(cell), dtype=np.int64)
-    last = max(levels - COVERED, 0)
+    last = max(levels - (len(cell) // COVERED).bit_length(), 0)
+    if last == levels:
+        return found
     column = np.repeat(np.arange(len(cell), dtype=np.int32), np.diff(indptr))
     differ = cell.take(indices) ^ cell.take(column)
     cut = np.flatnonzero(differ >= np.int64(1) << last)

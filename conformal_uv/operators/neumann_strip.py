@@ -60,7 +60,7 @@ class NeumannStrip:
         strip, inner = _strip(laplacian, boundary, n)
         rings, size = _rings(inner, strip.size)
         ground = np.zeros(size)  # constants come out large, and finite
-        ground[-FEWEST:] = ALONG
+        ground[-FEWEST if len(inner) else -1 :] = ALONG
         self._nb, self._size = len(boundary), size
         outer = np.maximum(strip.edges.i, strip.edges.j) < self._nb
         floor = _floor(laplacian.weights)
