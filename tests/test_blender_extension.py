@@ -15,6 +15,11 @@ import blender_process
 import pytest
 
 from conformal_uv import __version__
+from tools.blender_tool import BlenderTool
+from tools.build_extension import build_extension
+from tools.errors import ReleaseError
+from tools.extension_builds import DISTRIBUTION
+from tools.reproducible import write_zip
 
 pytestmark = pytest.mark.skipif(bool(blender_process.missing_blender()), reason=blender_process.missing_blender())
 
@@ -89,3 +94,31 @@ def test_install_and_use(extension, packages, tmp_path):
         )
         assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
     assert "error" in done.stdout
+
+
+def test_the_zip_without_wheels_is_valid_and_reproducible(tmp_path):
+    tool = BlenderTool(blender_process.blender_python())
+    built = []
+    for name in ("one", "other"):
+        (tmp_path / name).mkdir()
+        build = (blender_process.REPOSITORY, DISTRIBUTION, __version__, tmp_path / name, tmp_path, tool, 1_750_000_000)
+        built.append(build_extension(*build))
+    assert built[0].read_bytes() == built[1].read_bytes()
+    with zipfile.ZipFile(built[0]) as archive:
+        manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
+    assert manifest["version"] == f"{__version__}+distribution" and "wheels" not in manifest
+    tool.check_distinct([built[0]])
+    (tmp_path / "again.zip").write_bytes(built[0].read_bytes())
+    with pytest.raises(ReleaseError, match="duplicate"):
+        tool.check_distinct([built[0], tmp_path / "again.zip"])
+
+
+def test_blender_says_what_is_not_valid(tmp_path):
+    write_zip(tmp_path / "a.zip", {"__init__.py": b"", "blender_manifest.toml": b'id = "a"\n'}, 1_750_000_000)
+    with pytest.raises(ReleaseError, match="schema_version"):
+        BlenderTool(blender_process.blender_python()).validate(tmp_path / "a.zip")
+
+
+def test_a_python_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(ReleaseError, match="has no bpy"):
+        BlenderTool(str(tmp_path / "python"))

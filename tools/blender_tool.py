@@ -29,10 +29,12 @@ class BlenderTool:
 
     def __init__(self, python: str) -> None:
         spec = "import importlib.util as u; print(u.find_spec('bpy').origin)"
-        found = subprocess.run([python, "-c", spec], capture_output=True, text=True, check=False)
-        home = Path(found.stdout.strip() or "nowhere").parent
-        tools = sorted(home.glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
-        if found.returncode or not tools:
+        try:
+            said = subprocess.run([python, "-c", spec], capture_output=True, text=True, check=True).stdout.strip()
+        except (OSError, subprocess.CalledProcessError):
+            said = ""
+        tools = sorted(Path(said).parent.glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py")) if said else []
+        if not tools:
             raise ReleaseError(f"{python} has no bpy: pip install bpy, or name a Python that has it with --bpy-python")
         self._command = [python, str(tools[0])]
         tags = tools[0].parents[3] / "modules" / "_bpy_internal" / "extensions" / "tags.py"

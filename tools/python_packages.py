@@ -14,7 +14,7 @@ from .reproducible import rewritten_sdist, rewritten_wheel
 
 __all__ = ["build_packages"]
 
-SOURCES = ("conformal_uv", "meshlab_filter", "pyproject.toml", "README.md", "LICENSE", "CHANGELOG.md", "CITATION.cff")
+SOURCES = ("conformal_uv", "meshlab_filter", "pyproject.toml", "README.md", "LICENSE")
 
 
 def build_packages(repository: Path, output: Path, date: int) -> list[Path]:
