@@ -1,6 +1,6 @@
 """Conformal Unwrap, a Blender extension: UV islands unrolled, or brought to disks and rectangles, angles kept.
 
-All mathematics is in the package conformal_uv, which the extension brings as a wheel.
+All mathematics is in the package conformal_uv: beside this one in a checkout, inside it in the built extension.
 """
 
 import bpy

@@ -10,7 +10,7 @@ from importlib.util import find_spec
 @cache
 def missing_library() -> str:
     """What is missing and what to do, empty where nothing is."""
-    for name in ("numpy", "scipy", "conformal_uv"):
+    for name in ("numpy", "scipy"):
         if name not in sys.modules and find_spec(name) is None:
             version = f"{sys.version_info.major}.{sys.version_info.minor}"
             return (

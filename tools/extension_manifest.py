@@ -1,16 +1,15 @@
-"""The extension's manifest, its version the project's one."""
+"""The extension's manifest."""
 
 from __future__ import annotations
 
 import json
-import runpy
-from pathlib import Path
+from collections.abc import Iterable
 
-__all__ = ["VERSION", "manifest"]
+from .extension_builds import Build
 
-VERSION: str = runpy.run_path(str(Path(__file__).resolve().parent.parent / "conformal_uv" / "_version.py"))[
-    "__version__"
-]
+__all__ = ["manifest"]
+
+WEBSITE = ""  # the project's public address; left out of the manifest while there is none
 
 HEAD = """\
 schema_version = "1.0.0"
@@ -22,28 +21,35 @@ tagline = "Unwrap islands with their angles kept: free, disk or rectangle"
 maintainer = "The conformal_uv authors"
 type = "add-on"
 tags = ["UV", "Mesh"]
-blender_version_min = "4.2.0"
 license = ["SPDX:GPL-3.0-or-later"]
+copyright = ["2026 The conformal_uv authors"]
+blender_version_min = "{first}"
 """
 
 TAIL = """
-[build]
-paths_exclude_pattern = ["__pycache__/", "*.pyc", "/.*"]
+[permissions]
+files = "Read and write the files that its command line names"
 """
 
 
-def manifest(wheels: list[Path], platforms: list[str]) -> str:
+def manifest(build: Build, version: str, wheels: Iterable[str]) -> str:
     """The text of blender_manifest.toml.
 
     Parameters
     ----------
-    wheels : list of Path
-        Bundled in the folder `wheels`.
-    platforms : list of str
-        Blender's names of them; empty where the extension runs on all.
+    build : Build
+    version : str
+        The project's.
+    wheels : iterable of str
+        Names of the files in the folder `wheels`.
     """
-    text = HEAD.format(version=VERSION)
-    if platforms:
-        text += f"platforms = {json.dumps(platforms)}\n"
-    listed = "".join(f"    {json.dumps('./wheels/' + wheel.name)},\n" for wheel in wheels)
-    return f"{text}wheels = [\n{listed}]\n{TAIL}"
+    first, end = build.blender
+    text = HEAD.format(version=build.version(version), first=first)
+    if end:
+        text += f"blender_version_max = {json.dumps(end)}\n"
+    if WEBSITE:
+        text += f"website = {json.dumps(WEBSITE)}\n"
+    if build.platform:
+        text += f"platforms = {json.dumps([build.platform])}\n"
+    listed = "".join(f"    {json.dumps('./wheels/' + name)},\n" for name in wheels)
+    return text + (f"wheels = [\n{listed}]\n" if listed else "") + TAIL

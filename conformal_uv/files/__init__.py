@@ -1,9 +1,9 @@
 """Reading and writing mesh files."""
 
-from conformal_uv.files.atomic import replaced_file
-from conformal_uv.files.formats import READABLE, WRITABLE, check_writable, read_mesh, write_mesh
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.places import check_distinct, check_place, is_standard_output, is_stream
+from .atomic import replaced_file
+from .formats import READABLE, WRITABLE, check_writable, read_mesh, write_mesh
+from .mesh_file import MeshFile
+from .places import check_distinct, check_place, is_standard_output, is_stream
 
 __all__ = [
     "READABLE",

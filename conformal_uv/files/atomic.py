@@ -10,8 +10,8 @@ import sys
 from collections.abc import Iterator
 from typing import BinaryIO
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.places import descriptor_of, is_stream
+from ..errors import FileFormatError
+from .places import descriptor_of, is_stream
 
 __all__ = ["replaced_file"]
 

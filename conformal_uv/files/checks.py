@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import ConformalUVError, FileFormatError, MissingDependencyError
-from conformal_uv.mesh.polygons import PolygonMesh
+from ..errors import ConformalUVError, FileFormatError, MissingDependencyError
+from ..mesh.polygons import PolygonMesh
 
 __all__ = ["ALWAYS_TAKEN", "DAMAGED", "MOST_PACKED", "checked_mesh", "file_bytes", "foreign_parser", "missing_library"]
 

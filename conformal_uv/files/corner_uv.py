@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import NonFiniteError, OptionError, listed
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.mesh.polygons import PolygonMesh
+from ..errors import NonFiniteError, OptionError, listed
+from ..mesh.polygons import PolygonMesh
+from .mesh_file import MeshFile
 
 __all__ = ["checked_corner_uv", "filled_corner_uv", "mapped_faces", "shared_uv", "split_at_seams", "vertex_uv"]
 

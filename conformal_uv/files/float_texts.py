@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.digits import FOUR, TEN, WORD, compacted, digit_words, first_letters
-from conformal_uv.files.exact import half_gaps, product
+from .digits import FOUR, TEN, WORD, compacted, digit_words, first_letters
+from .exact import half_gaps, product
 
 __all__ = ["float_rows"]
 

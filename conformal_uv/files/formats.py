@@ -11,24 +11,24 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.atomic import replaced_file
-from conformal_uv.files.checks import file_bytes
-from conformal_uv.files.corner_uv import checked_corner_uv, split_at_seams
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.npz import read_npz, write_npz
-from conformal_uv.files.obj_read import read_obj
-from conformal_uv.files.obj_write import write_obj
-from conformal_uv.files.off import read_off
-from conformal_uv.files.other_formats import (
+from ..errors import FileFormatError
+from .atomic import replaced_file
+from .checks import file_bytes
+from .corner_uv import checked_corner_uv, split_at_seams
+from .mesh_file import MeshFile
+from .npz import read_npz, write_npz
+from .obj_read import read_obj
+from .obj_write import write_obj
+from .off import read_off
+from .other_formats import (
     MESHIO_SUFFIXES,
     TRIMESH_SUFFIXES,
     read_with_meshio,
     read_with_trimesh,
 )
-from conformal_uv.files.places import STANDARD_STREAM, check_place, is_stream
-from conformal_uv.files.ply import read_ply, write_ply
-from conformal_uv.files.stl import read_stl
+from .places import STANDARD_STREAM, check_place, is_stream
+from .ply import read_ply, write_ply
+from .stl import read_stl
 
 __all__ = ["READABLE", "WRITABLE", "check_writable", "read_mesh", "write_mesh"]
 

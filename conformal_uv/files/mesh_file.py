@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.mesh.polygons import PolygonMesh
+from ..mesh.polygons import PolygonMesh
 
 __all__ = ["MeshFile"]
 

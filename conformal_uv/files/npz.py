@@ -10,10 +10,10 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import ALWAYS_TAKEN, DAMAGED, MOST_PACKED, checked_mesh, foreign_parser
-from conformal_uv.files.corner_uv import filled_corner_uv, vertex_uv
-from conformal_uv.files.mesh_file import MeshFile
+from ..errors import FileFormatError
+from .checks import ALWAYS_TAKEN, DAMAGED, MOST_PACKED, checked_mesh, foreign_parser
+from .corner_uv import filled_corner_uv, vertex_uv
+from .mesh_file import MeshFile
 
 __all__ = ["read_npz", "write_npz"]
 

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.obj_elements import Elements, scan_elements
-from conformal_uv.files.text_lines import TextLines, text_blocks
+from ..errors import FileFormatError
+from .obj_elements import Elements, scan_elements
+from .text_lines import TextLines, text_blocks
 
 __all__ = ["ObjBlock", "obj_blocks", "wrong_texture"]
 

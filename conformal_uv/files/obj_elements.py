@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.text_lines import BLANK, TextLines
-from conformal_uv.files.text_numbers import whole_numbers
+from .text_lines import BLANK, TextLines
+from .text_numbers import whole_numbers
 
 __all__ = ["Elements", "scan_elements"]
 

@@ -7,10 +7,10 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.corner_uv import mapped_faces, shared_uv
-from conformal_uv.files.digits import WORD, compacted, digit_words
-from conformal_uv.files.float_texts import float_rows
-from conformal_uv.mesh.polygons import PolygonMesh
+from ..mesh.polygons import PolygonMesh
+from .corner_uv import mapped_faces, shared_uv
+from .digits import WORD, compacted, digit_words
+from .float_texts import float_rows
 
 __all__ = ["write_fresh_obj"]
 

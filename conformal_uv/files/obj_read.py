@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import checked_mesh
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.obj_blocks import obj_blocks, wrong_texture
-from conformal_uv.files.text_numbers import in_32_bits
-from conformal_uv.mesh.polygons import PolygonMesh
+from ..errors import FileFormatError
+from ..mesh.polygons import PolygonMesh
+from .checks import checked_mesh
+from .mesh_file import MeshFile
+from .obj_blocks import obj_blocks, wrong_texture
+from .text_numbers import in_32_bits
 
 __all__ = ["ObjSource", "read_obj"]
 

@@ -8,15 +8,15 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.corner_uv import filled_corner_uv, mapped_faces, shared_uv
-from conformal_uv.files.digits import whole_texts
-from conformal_uv.files.float_texts import float_rows
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.obj_blocks import ObjBlock, obj_blocks
-from conformal_uv.files.obj_fresh import write_fresh_obj
-from conformal_uv.files.obj_read import ObjSource
-from conformal_uv.files.splice import spliced
-from conformal_uv.files.text_lines import TextLines
+from .corner_uv import filled_corner_uv, mapped_faces, shared_uv
+from .digits import whole_texts
+from .float_texts import float_rows
+from .mesh_file import MeshFile
+from .obj_blocks import ObjBlock, obj_blocks
+from .obj_fresh import write_fresh_obj
+from .obj_read import ObjSource
+from .splice import spliced
+from .text_lines import TextLines
 
 __all__ = ["patched_obj", "write_obj"]
 

@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import DAMAGED, checked_mesh
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.spans import spans
-from conformal_uv.files.text_lines import TextLines, text_blocks
-from conformal_uv.files.text_numbers import in_32_bits, whole_numbers
+from ..errors import FileFormatError
+from .checks import DAMAGED, checked_mesh
+from .mesh_file import MeshFile
+from .spans import spans
+from .text_lines import TextLines, text_blocks
+from .text_numbers import in_32_bits, whole_numbers
 
 __all__ = ["read_off"]
 

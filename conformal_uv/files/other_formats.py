@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import checked_mesh, foreign_parser, missing_library
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.weld import welded
+from ..errors import FileFormatError
+from .checks import checked_mesh, foreign_parser, missing_library
+from .mesh_file import MeshFile
+from .weld import welded
 
 __all__ = ["MESHIO_SUFFIXES", "TRIMESH_SUFFIXES", "read_with_meshio", "read_with_trimesh"]
 

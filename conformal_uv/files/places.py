@@ -8,7 +8,7 @@ import stat
 from collections.abc import Mapping
 from pathlib import Path
 
-from conformal_uv.errors import FileFormatError, OptionError
+from ..errors import FileFormatError, OptionError
 
 __all__ = ["STANDARD_STREAM", "check_distinct", "check_place", "descriptor_of", "is_standard_output", "is_stream"]
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.digits import TEN
-from conformal_uv.files.exact import product
-from conformal_uv.files.spans import spans
+from .digits import TEN
+from .exact import product
+from .spans import spans
 
 __all__ = ["plain_floats"]
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import DAMAGED, checked_mesh
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.stl_text import text_corners
-from conformal_uv.files.weld import welded
+from ..errors import FileFormatError
+from .checks import DAMAGED, checked_mesh
+from .mesh_file import MeshFile
+from .stl_text import text_corners
+from .weld import welded
 
 __all__ = ["read_stl"]
 

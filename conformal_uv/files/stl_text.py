@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import DAMAGED
-from conformal_uv.files.text_lines import BLANK, NEWLINE
-from conformal_uv.files.text_numbers import float_numbers
+from ..errors import FileFormatError
+from .checks import DAMAGED
+from .text_lines import BLANK, NEWLINE
+from .text_numbers import float_numbers
 
 __all__ = ["text_corners"]
 

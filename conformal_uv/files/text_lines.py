@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.text_numbers import float_numbers
+from ..errors import FileFormatError
+from .text_numbers import float_numbers
 
 __all__ = ["TextLines", "text_blocks"]
 

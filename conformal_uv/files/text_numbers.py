@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.plain_numbers import plain_floats
+from .plain_numbers import plain_floats
 
 MOST = 10**18
 

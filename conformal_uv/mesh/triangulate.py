@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import MeshError, listed
-from conformal_uv.mesh.large_polygons import cut_large_polygon
-from conformal_uv.mesh.polygons import PolygonMesh
+from ..errors import MeshError, listed
+from .large_polygons import cut_large_polygon
+from .polygons import PolygonMesh
 
 __all__ = ["triangulate"]
 

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from installed_names import InstalledNames
 
 INSIDE = "CONFORMAL_UV_INSIDE_BLENDER"
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -18,9 +19,11 @@ if not os.environ.get(INSIDE):
     collect_ignore_glob = ["*.py"]
 elif MODULE == "blender_addon":
     sys.path.insert(0, str(REPOSITORY))
-else:  # brings conformal_uv, which tests import
+else:
     importlib.import_module("bpy")
-    importlib.import_module("addon_utils").enable(MODULE)
+    if importlib.import_module("addon_utils").enable(MODULE) is None:
+        raise RuntimeError(f"{MODULE} can not be enabled")
+    InstalledNames(MODULE).install()
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,4 @@
-"""What tests/test_blender_extension.py runs inside Blender: install a zip, then use what was installed.
+"""What tests/test_blender_extension.py and tools.blender_matrix run inside Blender: install a zip, then use it.
 
     python -S installed_extension.py PACKAGES install ZIP
     python -S installed_extension.py PACKAGES use FOLDER
@@ -6,8 +6,11 @@
 PACKAGES is a folder of packages without those that the extension must bring; FOLDER is where it was installed.
 """
 
+import logging
+import pickle
 import sys
 from importlib import import_module
+from pathlib import Path
 
 sys.path.insert(0, sys.argv[1])
 MODULE = "bl_ext.user_default.conformal_uv"
@@ -37,16 +40,32 @@ def use(folder):
     import rpack
     import scipy
 
-    import conformal_uv as cuv
-
+    cuv = import_module(f"{MODULE}.conformal_uv")
     brought = all(module.__file__.startswith(folder) for module in (cuv, scipy, rpack))
+    alone = not any(name.partition(".")[0] == "conformal_uv" for name in sys.modules)
     V = np.array([tuple(vertex.co) for vertex in ob.data.vertices], dtype=np.float64)
     result = cuv.unwrap(V, [list(polygon.vertices) for polygon in ob.data.polygons], place="disk")
     uv = np.array([tuple(item.vector) for item in ob.data.uv_layers.active.uv])
     error = np.abs(uv - (0.5 + 0.5 * result.uv)).max()
-    sys.stdout.write(f"finished {finished}, brought {brought}, error {error:.2g}, {result.charts[0].map.backend}\n")
+    again = pickle.loads(pickle.dumps(result))
+    kept = np.array_equal(again.uv, result.uv) and type(again) is cuv.Unwrapped
+    names = [name for name in logging.root.manager.loggerDict if "conformal_uv" in name]
+    logged = bool(names) and all(name.startswith(MODULE) for name in names)
+    told = dict(finished=finished, brought=brought, alone=alone, kept=kept, logged=logged, whole=every_module(cuv))
+    sys.stdout.write(f"{told}, error {error:.2g}, {result.charts[0].map.backend}\n")
     addon_utils.disable(MODULE)
-    return finished and brought and error < 3e-7 and not hasattr(bpy.types, "UV_OT_conformal_unwrap")
+    return all(told.values()) and error < 3e-7 and not hasattr(bpy.types, "UV_OT_conformal_unwrap")
+
+
+def every_module(package):
+    """Whether all that is carried can be imported, each of its names and each module."""
+    home = Path(package.__file__).parent
+    for name in package.__all__:
+        getattr(package, name)
+    for path in home.rglob("*.py"):
+        parts = path.relative_to(home).with_suffix("").parts
+        import_module(".".join((package.__name__, *(part for part in parts if part != "__init__"))))
+    return not any(name.partition(".")[0] == "conformal_uv" for name in sys.modules)
 
 
 if __name__ == "__main__":

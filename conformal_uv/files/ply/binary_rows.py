@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.ply.header import PlyElement, PlyProperty
-from conformal_uv.files.ply.list_places import first_cut, first_lengths, list_places, lists_of
-from conformal_uv.files.ply.lists import gathered
-from conformal_uv.files.ply.rows import Ints, damaged_row, kept_type
+from .header import PlyElement, PlyProperty
+from .list_places import first_cut, first_lengths, list_places, lists_of
+from .lists import gathered
+from .rows import Ints, damaged_row, kept_type
 
 __all__ = ["EvenRows", "UnevenRows", "binary_rows"]
 

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.digits import whole_texts
-from conformal_uv.files.float_texts import float_rows
-from conformal_uv.files.ply.binary_rows import EvenRows, UnevenRows
-from conformal_uv.files.ply.header import PlyProperty
-from conformal_uv.files.ply.lists import packed
-from conformal_uv.files.ply.rows import Ints
-from conformal_uv.files.ply.source import PlyRows
-from conformal_uv.files.ply.text_rows import TextBlock, TextRows
-from conformal_uv.files.splice import spliced
-from conformal_uv.files.text_lines import BLANK, NEWLINE
+from ..digits import whole_texts
+from ..float_texts import float_rows
+from ..splice import spliced
+from ..text_lines import BLANK, NEWLINE
+from .binary_rows import EvenRows, UnevenRows
+from .header import PlyProperty
+from .lists import packed
+from .rows import Ints
+from .source import PlyRows
+from .text_rows import TextBlock, TextRows
 
 __all__ = ["Added", "changed_rows"]
 

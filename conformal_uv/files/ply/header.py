@@ -6,8 +6,8 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import DAMAGED
+from ...errors import FileFormatError
+from ..checks import DAMAGED
 
 __all__ = ["NAMES", "PlyElement", "PlyHeader", "PlyProperty", "check_counts", "read_header", "unix_text"]
 

@@ -6,7 +6,7 @@ import contextlib
 import struct
 from collections.abc import Iterator
 
-from conformal_uv.files.ply.header import PlyElement, PlyProperty
+from .header import PlyElement, PlyProperty
 
 __all__ = ["first_cut", "first_lengths", "list_places", "lists_of"]
 

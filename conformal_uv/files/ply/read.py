@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import checked_mesh
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.ply.header import PlyProperty, check_counts, read_header, unix_text
-from conformal_uv.files.ply.source import PlyRows, PlySource, rows_of
-from conformal_uv.mesh.polygons import PolygonMesh
+from ...errors import FileFormatError
+from ...mesh.polygons import PolygonMesh
+from ..checks import checked_mesh
+from ..mesh_file import MeshFile
+from .header import PlyProperty, check_counts, read_header, unix_text
+from .source import PlyRows, PlySource, rows_of
 
 __all__ = ["INDEX_LISTS", "VERTEX_UV", "WEDGE_UV", "read_ply"]
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.checks import DAMAGED
-from conformal_uv.files.ply.header import PlyElement, PlyProperty
+from ...errors import FileFormatError
+from ..checks import DAMAGED
+from .header import PlyElement, PlyProperty
 
 __all__ = ["Ints", "damaged_row", "kept_type"]
 

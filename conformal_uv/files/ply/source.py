@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from conformal_uv.files.ply.binary_rows import EvenRows, UnevenRows, binary_rows
-from conformal_uv.files.ply.header import PlyHeader
-from conformal_uv.files.ply.text_rows import TextRows
-from conformal_uv.mesh.polygons import PolygonMesh
+from ...mesh.polygons import PolygonMesh
+from .binary_rows import EvenRows, UnevenRows, binary_rows
+from .header import PlyHeader
+from .text_rows import TextRows
 
 __all__ = ["PlyRows", "PlySource", "rows_of"]
 

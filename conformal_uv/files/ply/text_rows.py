@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.errors import FileFormatError
-from conformal_uv.files.ply.header import PlyElement, PlyProperty
-from conformal_uv.files.ply.rows import Ints, damaged_row, kept_type
-from conformal_uv.files.spans import spans
-from conformal_uv.files.text_lines import BLANK, NEWLINE
-from conformal_uv.files.text_numbers import float_numbers, whole_numbers
+from ...errors import FileFormatError
+from ..spans import spans
+from ..text_lines import BLANK, NEWLINE
+from ..text_numbers import float_numbers, whole_numbers
+from .header import PlyElement, PlyProperty
+from .rows import Ints, damaged_row, kept_type
 
 __all__ = ["TextBlock", "TextRows"]
 

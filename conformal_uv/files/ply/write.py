@@ -7,14 +7,14 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv.files.corner_uv import filled_corner_uv, mapped_faces, vertex_uv
-from conformal_uv.files.mesh_file import MeshFile
-from conformal_uv.files.ply.change import Added, changed_rows
-from conformal_uv.files.ply.header import NAMES, PlyProperty, read_header
-from conformal_uv.files.ply.lists import packed
-from conformal_uv.files.ply.read import VERTEX_UV, WEDGE_UV
-from conformal_uv.files.ply.source import PlySource, rows_of
-from conformal_uv.mesh.polygons import PolygonMesh
+from ...mesh.polygons import PolygonMesh
+from ..corner_uv import filled_corner_uv, mapped_faces, vertex_uv
+from ..mesh_file import MeshFile
+from .change import Added, changed_rows
+from .header import NAMES, PlyProperty, read_header
+from .lists import packed
+from .read import VERTEX_UV, WEDGE_UV
+from .source import PlySource, rows_of
 
 __all__ = ["write_ply"]
 
