@@ -9,7 +9,7 @@ import pytest
 from meshes import annulus, fan, moebius_band, plate, scattered_disk, strip, wheel
 
 import conformal_uv as cuv
-from conformal_uv.atlas import DiskAtlas, sound_disks
+from conformal_uv.atlas import FactorizedDisks, sound_disks
 from conformal_uv.charts import chart_atlas
 from conformal_uv.operators.dirichlet import DirichletProblem
 
@@ -67,6 +67,75 @@ def test_an_island_is_mapped_as_if_it_were_alone(family, method):
         assert len(chart.map.history) == 0 or chart.map.gradient_norm <= 1e-10
         if single.objective == "conformal":  # exact directions of the same Hessian need no more steps than inexact ones
             assert len(chart.map.history) <= len(single.history) + 1
+
+
+@pytest.mark.parametrize("laplacian", ["auto", "cotan", "intrinsic-delaunay"])
+@pytest.mark.parametrize("family", FAMILIES)
+def test_an_island_is_flattened_as_if_it_were_alone(family, laplacian):
+    meshes = [bumpy(FAMILIES[family](k), k) for k in range(24)]
+    u = cuv.unwrap(*side_by_side(meshes), shape="free", laplacian=laplacian)
+    alone = u.charts.solutions.alone
+    assert len(alone) <= 8, "what is compared was not mapped together"
+    for number, (chart, (V, F)) in enumerate(zip(u.charts, meshes, strict=True)):
+        single = cuv.free_map(V, F, laplacian=laplacian)
+        size = np.abs(single.uv).max()
+        assert np.abs(chart.map.uv - single.uv).max() <= EQUAL * size
+        for name in ("status", "laplacian", "backend", "converged"):
+            assert getattr(chart.map, name) == getattr(single, name)
+        for name in ("boundary", "flipped", "crossings"):
+            assert np.array_equal(getattr(chart.map, name), getattr(single, name))
+        if number not in alone:
+            assert chart.map.repair is None and single.repair is None and len(single.crossings) == 0
+        conformal, dirichlet = u.charts.solutions.energies()
+        assert conformal[number] == pytest.approx(single.conformal_energy, rel=1e-9, abs=1e-12 * size**2)
+        assert dirichlet[number] == pytest.approx(single.dirichlet_energy, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "options", [{}, {"upright": "y", "rotation": 0.3}, {"upright": "none"}, {"holes": "fill"}], ids=str
+)
+def test_flat_islands_are_framed_and_placed_as_one_by_one(options, monkeypatch):
+    """Some lie flat and are laid along their sides, some are upright; a hole is filled, its middle in no frame."""
+    flat = [bumpy((V * [1.0, 1.0, 0.0], F), k, noise=0.0) for k, (V, F) in enumerate([plate(3, 2), plate(2, 4)])]
+    lying = [(V @ np.diag([1.0, 1.0, 0.0]), F) for V, F in [plate(4, 2), plate(5, 3), strip(3)]]
+    bent = [bumpy(scattered_disk(9, 12, k), k) for k in range(12)]
+    pierced = [bumpy(plate(5, 5, ((1, 1, 3, 3),)), k) for k in range(3)] if "holes" in options else []
+    V, F = side_by_side([*flat, *lying, *bent, *pierced])
+    together = cuv.unwrap(V, F, shape="free", **options)
+    monkeypatch.setattr(chart_atlas, "FEWEST", 1000)
+    one_by_one = cuv.unwrap(V, F, shape="free", **options)
+    assert len(one_by_one.charts.solutions.alone) == len(one_by_one.charts) > 2 * len(together.charts.solutions.alone)
+    assert np.abs(together.uv - one_by_one.uv).max() <= EQUAL
+    meshes = together.charts.meshes
+    for first, end in zip(meshes.first_vertex[:-1], meshes.first_virtual, strict=True):
+        own = slice(first, end)
+        assert np.abs(together.charts.solutions.z[own] - one_by_one.charts.solutions.z[own]).max() <= EQUAL
+    assert together.charts.notes(np.arange(len(together.charts))) == one_by_one.charts.notes(
+        np.arange(len(one_by_one.charts))
+    )
+    assert len(together.charts.shaped) == len(one_by_one.charts.shaped) == len(together.charts)
+
+
+def test_flat_islands_that_cross_themselves_or_fold_are_left_to_themselves():
+    """A long spiral of triangles runs over itself; it is told as for one."""
+    t = np.linspace(0.0, 2.5 * np.pi, 60)
+    inner, outer = (np.column_stack((r * np.cos(t), r * np.sin(t), h * t)) for r, h in ((1.0, 0.02), (1.3, 0.02)))
+    V = np.concatenate((inner, outer))
+    k = np.arange(59)
+    F = np.concatenate((np.column_stack((k, 60 + k, k + 1)), np.column_stack((k + 1, 60 + k, 61 + k))))
+    meshes = [bumpy(plate(2, 2), seed) for seed in range(9)] + [(V, F)]
+    u = cuv.unwrap(*side_by_side(meshes), shape="free")
+    assert 9 in u.charts.solutions.alone and len(u.charts[9].map.crossings) > 0
+    assert any("crosses itself" in note for note in u.charts[9].notes)
+    assert len(u.charts.solutions.alone) == 1
+
+
+def test_islands_of_two_shapes_are_mapped_together_each():
+    meshes = [bumpy(plate(2, 2), k) for k in range(20)]
+    shapes = ["disk", "free"] * 10
+    u = cuv.unwrap(*side_by_side(meshes), shape=shapes)
+    assert not u.charts.solutions.alone
+    assert [type(chart.map).__name__ for chart in u.charts] == ["DiskMap", "FreeMap"] * 10
 
 
 def test_alike_vertices_are_chosen_by_the_surface_as_for_one_disk():
@@ -179,9 +248,9 @@ def test_an_island_that_can_not_be_factorized_is_looked_for_by_halves(monkeypatc
     def refusing(disks, *rest):
         if 37 in disks.number:
             raise cuv.SolverError("a block is singular")
-        return DiskAtlas(disks, *rest)
+        return FactorizedDisks(disks, *rest)
 
-    monkeypatch.setattr(chart_atlas, "DiskAtlas", refusing)
+    monkeypatch.setattr(chart_atlas, "FactorizedDisks", refusing)
     u = cuv.unwrap(*side_by_side(meshes))
     alone = sorted(u.charts.solutions.alone)
     assert 37 in alone and len(alone) < 2 * chart_atlas.FEWEST

@@ -1,4 +1,4 @@
-"""Many small disks checked and factorized together, to be mapped again and again."""
+"""Many small disks factorized together, mapped to unit disks again and again."""
 
 from __future__ import annotations
 
@@ -10,14 +10,12 @@ from numpy.typing import NDArray
 from ..disk.auto import GOOD
 from ..disk.placement import inside_disk
 from ..disk.relative_energy import FEW
-from ..operators.dirichlet import DirichletProblem
 from ..optimize import NewtonStep, Status
 from ..optimize.choice import ALIKE
-from ..options import Balance, DiskOptions, Laplacian, Method, Objective
+from ..options import Balance, DiskOptions, Method, Objective
 from ..progress import Progress
-from .atlas_maps import AtlasMaps, Candidate
-from .block_laplacian import block_laplacian
-from .disks import Disks
+from .disk_maps import Candidate, DiskMaps
+from .factorized_disks import FactorizedDisks
 from .finish import angle_means, placed, plain_maps
 from .measures import Measures, measures
 from .shear import ShearAngles, least_shears
@@ -44,7 +42,7 @@ def takes(options: DiskOptions) -> bool:
 
 
 class DiskAtlas:
-    """Disks whose Laplacians are the blocks of one matrix, factorized once.
+    """Maps of many disks to unit disks.
 
     Results are those of `DiskMapper`, disk by disk, to rounding. Disks of which that can not be said beyond doubt (an
     angle or an area next to nothing, a folded face, a step that has to be thought about) are left out of the results:
@@ -52,31 +50,22 @@ class DiskAtlas:
 
     Parameters
     ----------
-    disks : Disks
-    laplacian : Laplacian
-    backend : str
+    factorized : FactorizedDisks
     progress : Progress
 
     Raises
     ------
     SolverError
-        A block is singular to working precision.
+        A copy with split chords is singular to working precision.
     """
 
-    def __init__(self, disks: Disks, laplacian: Laplacian, backend: str, progress: Progress) -> None:
-        progress("assembly", 0.0)
-        self.disks = disks
-        self._blocks = block_laplacian(
-            disks.corners, disks.edges, disks.geometry, disks.of_vertex, len(disks), laplacian
-        )
-        self._problem = DirichletProblem(
-            self._blocks.laplacian, disks.loop, disks.n, backend=backend, progress=progress
-        )
+    def __init__(self, factorized: FactorizedDisks, progress: Progress) -> None:
+        self.disks, self._blocks, self._problem = factorized.disks, factorized.blocks, factorized.problem
         progress("linear", 0.0)
-        self._measures: Measures = measures(disks, self._problem, backend)
+        self._measures: Measures = measures(self.disks, self._problem, factorized.backend)
         self._newton: tuple[tuple[object, ...], tuple[NewtonSolver, list[ShearAngles]]] | None = None
 
-    def maps(self, options: DiskOptions, turns: Turns | None, progress: Progress) -> AtlasMaps:
+    def maps(self, options: DiskOptions, turns: Turns | None, progress: Progress) -> DiskMaps:
         """The maps with such options as `takes` says, every disk turned by what `turns` says of the positions (n,)."""
         disks, seen = self.disks, self._measures
         every = np.ones(len(disks), dtype=bool)
@@ -105,7 +94,7 @@ class DiskAtlas:
         if turns is not None:
             z = inside_disk(z * turns(z)[disks.of_vertex])
             good &= plain_maps(disks, z)
-        return AtlasMaps(disks, z, good, candidates, choice, options, self._problem.backend, self._blocks.intrinsic)
+        return DiskMaps(disks, z, good, candidates, choice, options, self._problem.backend, self._blocks.intrinsic)
 
     def _newton_solutions(self, options: DiskOptions) -> tuple[NewtonSolver, list[ShearAngles]]:
         key = options.tolerance, options.relative_tolerance, options.max_iterations, options.method

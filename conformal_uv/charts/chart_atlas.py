@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..atlas import AtlasMaps, DiskAtlas, Turns, places, sound_disks, takes
+from ..atlas import (
+    DiskAtlas,
+    DiskMaps,
+    FactorizedDisks,
+    Frames,
+    FreeAtlas,
+    FreeMaps,
+    Turns,
+    neighbours,
+    places,
+    sound_disks,
+    takes,
+    takes_free,
+)
 from ..errors import SolverError
-from ..options import ChartOptions, Laplacian
+from ..options import ChartOptions, Laplacian, Shape
 from ..progress import Progress
 from .chart_meshes import ChartMeshes
 from .chart_progress import ChartProgress
-from .upright import upright_turns
+from .upright import straight_sides, upright_turns
 
 __all__ = ["ChartAtlas"]
 
@@ -45,21 +57,27 @@ class ChartAtlas:
         self._small = sound & (meshes.weights() <= MOST_FACES)
         self._made: tuple[Ints, list[_Batch]] | None = None
 
-    def maps(self, wanted: Bools, options: ChartOptions, told: ChartProgress) -> Iterator[AtlasMaps]:
-        """The maps of the `wanted` charts (c,) to disks, a batch at a time; those that it leaves to others are not
-        good, or missing."""
+    def maps(
+        self, wanted: Bools, shape: Shape, options: ChartOptions, told: ChartProgress
+    ) -> Iterator[DiskMaps | FreeMaps]:
+        """The maps of the `wanted` charts (c,) to disks or with free boundaries, a batch at a time; those that it
+        leaves to others are not good, or missing."""
         chosen = np.flatnonzero(wanted & self._small)
-        if len(chosen) < FEWEST or not takes(options.disk):
+        taken = takes(options.disk) if shape is Shape.DISK else shape is Shape.FREE and takes_free(options.free)
+        if len(chosen) < FEWEST or not taken:
             return
         progress = Progress(told if told.wanted else None)
         for batch in self._batches(chosen, told, progress):
-            yield batch.atlas.maps(options.disk, batch.turns(options), progress)
+            try:
+                yield batch.maps(shape, options, progress)
+            except SolverError:  # of a copy with split chords
+                continue
 
     def _batches(self, chosen: Ints, told: ChartProgress, progress: Progress) -> Iterator[_Batch]:
         """Of the chosen charts; kept for the next time if all went well."""
         if self._made is not None and np.array_equal(self._made[0], chosen):
             for batch in self._made[1]:
-                told.start(batch.atlas.disks.number)
+                told.start(batch.disks.number)
                 yield batch
             return
         self._made, made = None, list[_Batch]()
@@ -85,26 +103,60 @@ class ChartAtlas:
         disks = sound_disks(meshes.V, meshes.solved, meshes.first_vertex, meshes.first_solved, part, MOST_BOUNDARY)
         if disks is None:
             return None
-        atlas = DiskAtlas(disks, self._laplacian, self._backend, progress)
+        factorized = FactorizedDisks(disks, self._laplacian, self._backend, progress)
         count = np.diff(meshes.first_face)[disks.number]
         chart = np.repeat(np.arange(len(disks)), count)
         F = meshes.F[places(meshes.first_face, disks.number)] + disks.first_vertex[chart][:, None]
-        return _Batch(atlas, F, chart)
+        own = meshes.first_virtual[disks.number] - meshes.first_vertex[disks.number]
+        virtual = np.arange(disks.n) - disks.first_vertex[disks.of_vertex] >= own[disks.of_vertex]
+        return _Batch(factorized, F, chart, virtual)
 
 
-class _Batch(NamedTuple):
-    """Charts that are mapped together; F (m, 3) are the triangles of their polygons, `chart` (m,) says whose."""
+class _Batch:
+    """Charts that are mapped together; F (m, 3) are the triangles of their polygons, `chart` (m,) says whose, `virtual`
+    (n,) which vertices are none of theirs."""
 
-    atlas: DiskAtlas
-    F: Ints
-    chart: Ints
+    def __init__(self, factorized: FactorizedDisks, F: Ints, chart: Ints, virtual: Bools) -> None:
+        self.disks = factorized.disks
+        self._factorized, self._F, self._chart, self._virtual = factorized, F, chart, virtual
+        self._disk: DiskAtlas | None = None
+        self._free: FreeAtlas | None = None
 
-    def turns(self, options: ChartOptions) -> Turns:
+    def maps(self, shape: Shape, options: ChartOptions, progress: Progress) -> DiskMaps | FreeMaps:
+        """The maps of one shape."""
+        if shape is Shape.FREE:
+            self._free = self._free or FreeAtlas(self._factorized)
+            return self._free.maps(self._frames(options), progress)
+        self._disk = self._disk or DiskAtlas(self._factorized, progress)
+        return self._disk.maps(options.disk, self._turns(options), progress)
+
+    def _turns(self, options: ChartOptions) -> Turns:
         """What the disks are multiplied by to be upright and turned as asked for."""
-        disks, rotation = self.atlas.disks, complex(np.exp(1j * options.rotation)) if options.rotation else 1.0
+        disks, rotation = self.disks, complex(np.exp(1j * options.rotation)) if options.rotation else 1.0
 
         def turns(z: Complex) -> Complex:
             first, upright = disks.first_vertex[:-1], options.shape.upright
-            return rotation * upright_turns(disks.V, self.F, z, first, self.chart, upright)
+            return rotation * upright_turns(disks.V, self._F, z, first, self._chart, upright)
 
         return turns
+
+    def _frames(self, options: ChartOptions) -> Frames:
+        """Flat charts upright, turned as asked for, and in the middle of the square that they fill one way."""
+        disks, rotation = self.disks, complex(np.exp(1j * options.rotation)) if options.rotation else 1.0
+        first, upright = disks.first_vertex[:-1], options.shape.upright
+        ahead, _ = neighbours(disks.first_boundary)
+
+        def frames(z: Complex) -> Complex:
+            edges = z[disks.loop[ahead]] - z[disks.loop]
+            sides = straight_sides(edges, disks.of_boundary, len(disks))
+            turn = rotation * upright_turns(disks.V, self._F, z, first, self._chart, upright, sides)
+            z = z * turn[disks.of_vertex]
+            own = np.where(self._virtual, np.nan, 1.0)
+            low = np.fmin.reduceat(own * z.real, first) + 1j * np.fmin.reduceat(own * z.imag, first)
+            high = np.fmax.reduceat(own * z.real, first) + 1j * np.fmax.reduceat(own * z.imag, first)
+            side = np.maximum((high - low).real, (high - low).imag)
+            scale = np.where(side > 0.0, 2.0 / np.where(side > 0.0, side, 1.0), 1.0)
+            z = (z - (0.5 * (low + high))[disks.of_vertex]) * scale[disks.of_vertex]
+            return np.clip(z.real, -1.0, 1.0) + 1j * np.clip(z.imag, -1.0, 1.0)
+
+        return frames

@@ -83,7 +83,8 @@ class ChartList(Sequence[Chart]):
     @property
     def shaped(self) -> list[FreeMap | RectangleMap]:
         """The maps to other shapes than disks."""
-        maps = [one.map for _, one in sorted(self.solutions.alone.items())]
+        other = np.flatnonzero(self.mapped & ~self.solutions.is_disk)
+        maps = [self.solutions.map(number) for number in other.tolist()]
         return [found for found in maps if isinstance(found, FreeMap | RectangleMap)]
 
     def surface_areas(self) -> NDArray[np.float64]:

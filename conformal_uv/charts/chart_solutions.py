@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..atlas import AtlasMaps
+from ..atlas import DiskMaps, FreeMaps
 from ..disk import DiskMap
 from ..errors import ConformalUVError
 from ..operators.wirtinger import planar_sides, signed_double_areas
@@ -39,7 +39,7 @@ class ChartSolutions:
         self.z = np.zeros(len(meshes.V), dtype=np.complex128)
         self.mapped, self.is_disk = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
         self.alone: dict[int, ChartSolution] = {}
-        self._together: list[AtlasMaps] = []
+        self._together: list[DiskMaps | FreeMaps] = []
         self._where = np.full((count, 2), -1, dtype=np.int64)  # the maps that a chart is among, and its place there
 
     def put(self, number: int, solution: ChartSolution) -> None:
@@ -50,13 +50,13 @@ class ChartSolutions:
             self.z[first : first + len(solution.z)] = solution.z
             self.mapped[number], self.is_disk[number] = True, isinstance(solution.map, DiskMap)
 
-    def take(self, maps: AtlasMaps) -> None:
+    def take(self, maps: DiskMaps | FreeMaps) -> None:
         """The maps of several charts, those that are good."""
         disks, good = maps.disks, np.flatnonzero(maps.good)
         number = disks.number[good]
         self._where[number, 0], self._where[number, 1] = len(self._together), good
         self._together.append(maps)
-        self.mapped[number] = self.is_disk[number] = True
+        self.mapped[number], self.is_disk[number] = True, maps.to_disks
         taken = maps.good[disks.of_vertex]
         shift = self._meshes.first_vertex[disks.number] - disks.first_vertex[:-1]
         self.z[np.flatnonzero(taken) + shift[disks.of_vertex[taken]]] = maps.z[taken]

@@ -116,15 +116,17 @@ class Unwrapper:
     def _solved(
         self, shapes: list[Shape], how: ChartOptions, vertices: NamedVertices, progress: ChartProgress
     ) -> ChartSolutions:
-        """All charts mapped: small disks together, the others and what is left of those one by one."""
+        """All charts mapped: small ones together, the others and what is left of those one by one."""
         solutions = ChartSolutions(self._meshes)
-        together = np.array([shape is Shape.DISK for shape in shapes], dtype=bool)
+        together = np.ones(len(shapes), dtype=bool)
         if vertices:
             together &= ~self._meshes.with_any(
                 np.concatenate((vertices.center, vertices.boundary_vertex, vertices.pins))
             )
-        for maps in self._atlas.maps(together, how, progress):
-            solutions.take(maps)
+        for shape in dict.fromkeys(shapes):
+            wanted = together & np.array([one is shape for one in shapes], dtype=bool)
+            for maps in self._atlas.maps(wanted, shape, how, progress):
+                solutions.take(maps)
         callback = progress if progress.wanted else None
         for number in np.flatnonzero(~solutions.mapped).tolist():
             progress.start(number)

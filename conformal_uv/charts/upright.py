@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..mesh.blocks import by_blocks
 from ..options import Shape, Upright
 
-__all__ = ["upright_turn", "upright_turns"]
+__all__ = ["straight_sides", "upright_turn", "upright_turns"]
 
 Real = NDArray[np.float64]
 Ints = NDArray[np.integer]
@@ -51,8 +51,10 @@ def upright_turn(V: Real, F: Ints, z: Complex, loop: Ints, shape: Shape, upright
     return turn
 
 
-def upright_turns(V: Real, F: Ints, z: Complex, first_vertex: Ints, chart: Ints, upright: Upright) -> Complex:
-    """The same for c disks one after another, (c,).
+def upright_turns(
+    V: Real, F: Ints, z: Complex, first_vertex: Ints, chart: Ints, upright: Upright, sides: Complex | None = None
+) -> Complex:
+    """The same for c disks, or charts with free boundaries, one after another, (c,).
 
     Parameters
     ----------
@@ -62,13 +64,19 @@ def upright_turns(V: Real, F: Ints, z: Complex, first_vertex: Ints, chart: Ints,
         The first vertex of each disk.
     chart : (m,) integers
         The disk of each face.
+    sides : (c,) complex, optional
+        Where boundaries are free: the turn that lays the straight sides of each along the axes, 0 where it has none.
     """
     if upright is Upright.NONE:
         return np.ones(len(first_vertex), dtype=np.complex128)
     count = np.diff(np.append(first_vertex, len(V)))
     V = V - np.repeat(V[first_vertex], count, axis=0)
-    turn, _ = _turns_and_flats(V, F, z, chart, np.maximum.reduceat(np.abs(V).max(axis=1), first_vertex), upright)
-    return turn
+    turn, flat = _turns_and_flats(V, F, z, chart, np.maximum.reduceat(np.abs(V).max(axis=1), first_vertex), upright)
+    if sides is None:
+        return turn
+    straight = flat & (sides != 0.0)
+    quarters = np.round(np.angle(turn * np.conj(sides)) / (0.5 * np.pi)).astype(np.int64)
+    return np.where(straight, sides * np.array([1.0, 1j, -1.0, -1j])[quarters % 4], turn)
 
 
 def _turns_and_flats(
@@ -133,13 +141,18 @@ def _rises(
 
 def _straight_sides(boundary: Complex) -> complex | None:
     """The turn that lays the straight sides of a polygon along the axes; None where there are none."""
-    edges = np.roll(boundary, -1) - boundary
+    (turn,) = straight_sides(np.roll(boundary, -1) - boundary, np.zeros(len(boundary), dtype=np.int64), 1)
+    return None if turn == 0.0 else complex(turn)
+
+
+def straight_sides(edges: Complex, polygon: Ints, count: int) -> Complex:
+    """The same for `count` polygons by their edges and whose those are; 0 where there are none."""
     lengths = np.abs(edges)
-    along = edges[lengths > 0.0] / lengths[lengths > 0.0]
-    moment = complex((lengths[lengths > 0.0] * along**4).sum())
-    if abs(moment) < STRAIGHT * float(lengths.sum()):
-        return None
-    return complex(np.exp(-0.25j * np.angle(moment)))
+    along = np.divide(edges, lengths, out=np.zeros_like(edges), where=lengths > 0.0)
+    moments = lengths * along**4
+    moment = np.bincount(polygon, moments.real, count) + 1j * np.bincount(polygon, moments.imag, count)
+    straight = np.abs(moment) >= STRAIGHT * np.bincount(polygon, lengths, count)
+    return np.where(straight & (moment != 0.0), np.exp(-0.25j * np.angle(moment)), 0.0)
 
 
 def _nearest_quarter(turn: complex, sides: complex) -> complex:

@@ -128,7 +128,7 @@ def scaled_each(
     return np.ldexp(V, -exponent[owner][:, None]), np.ldexp(1.0, exponent)
 
 
-def squared_units(areas: NDArray[np.float64], unit: float) -> NDArray[np.float64]:
+def squared_units(areas: NDArray[np.float64], unit: float | NDArray[np.float64]) -> NDArray[np.float64]:
     """Areas in units squared; infinite where they are too large for doubles."""
     with np.errstate(over="ignore", under="ignore"):
         return areas * unit * unit

@@ -15,11 +15,19 @@ from ..progress import Progress
 from .dirichlet import DirichletProblem
 from .neumann_strip import SHORT
 
-__all__ = ["BoundaryOperator"]
+__all__ = ["BoundaryOperator", "wave_sizes"]
 
 Complex = NDArray[np.complex128]
 
 MOST_STEPS = 500
+
+
+def wave_sizes(nb: int) -> NDArray[np.float64]:
+    """S^+ of the waves along nb boundary vertices, (nb,) in the order of `numpy.fft.fftfreq`; 0 of the constant one."""
+    waves = np.maximum(np.abs(np.fft.fftfreq(nb, 1.0 / nb)), 1.0)
+    sizes = nb / (2.0 * np.pi * waves)  # a wave's Dirichlet energy in the disk is pi |k|
+    sizes[0] = 0.0
+    return sizes
 
 
 class BoundaryOperator:
@@ -27,10 +35,7 @@ class BoundaryOperator:
 
     def __init__(self, problem: DirichletProblem) -> None:
         self._problem = problem
-        nb = len(problem.boundary)
-        waves = np.maximum(np.abs(np.fft.fftfreq(nb, 1.0 / nb)), 1.0)
-        self._multiplier = nb / (2.0 * np.pi * waves)  # a wave's Dirichlet energy in the disk is pi |k|
-        self._multiplier[0] = 0.0
+        self._multiplier = wave_sizes(len(problem.boundary))
 
     def applied(self, x: Complex) -> tuple[Complex, Complex]:
         """S x, and the interior values of the harmonic extension of x, (ni,)."""

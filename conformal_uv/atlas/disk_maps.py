@@ -1,4 +1,4 @@
-"""The maps of many disks; that of one is made when it is asked for."""
+"""The maps of many disks to unit disks; that of one is made when it is asked for."""
 
 from __future__ import annotations
 
@@ -9,18 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..disk import DiskMap
-from ..mesh.geometry import TriangleGeometry
-from ..mesh.halfedges import HalfEdges
-from ..mesh.surface import Surface
-from ..operators.wirtinger import planar_sides, unfolded_sides
 from ..optimize import NewtonStep, Status
 from ..options import DiskOptions, Laplacian, Method
-from .disks import Disks, neighbours
+from .disks import Disks
+from .energies import energies
+from .single import surface_of
 
-__all__ = ["AtlasMaps", "Candidate"]
+__all__ = ["DiskMaps", "Candidate"]
 
 Ints = NDArray[np.int64]
-Real = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Complex = NDArray[np.complex128]
 
@@ -50,8 +47,8 @@ class Candidate(NamedTuple):
     relative: bool = False
 
 
-class AtlasMaps:
-    """Maps of c disks.
+class DiskMaps:
+    """Maps of c disks to unit disks.
 
     Attributes
     ----------
@@ -63,6 +60,8 @@ class AtlasMaps:
     conformal, dirichlet : (c,) float64
         Energies.
     """
+
+    to_disks = True
 
     def __init__(
         self,
@@ -78,12 +77,12 @@ class AtlasMaps:
         self.disks, self.z, self.good = disks, z, good
         self._candidates, self._choice, self._options = candidates, choice, options
         self._backend, self._intrinsic = backend, intrinsic
-        self.conformal, self.dirichlet = _energies(disks, z)
+        self.conformal, self.dirichlet = energies(disks, z)
 
     def __getitem__(self, disk: int) -> DiskMap:
         """The map of one of them."""
         disks, chosen = self.disks, self._candidates[self._choice[disk]]
-        surface = _surface(disks, disk)
+        surface = surface_of(disks, disk)
         none = np.empty(0, dtype=np.int64)
         own = self.z[disks.first_vertex[disk] : disks.first_vertex[disk + 1]]
         return DiskMap(
@@ -105,39 +104,3 @@ class AtlasMaps:
             backend=self._backend,
             surface=surface,
         )
-
-
-def _energies(disks: Disks, z: Complex) -> tuple[Real, Real]:
-    """Conformal and Dirichlet energies (c,), as `operators.wirtinger` has them of one map."""
-    p1, p2 = unfolded_sides(disks.geometry)
-    q1, q2 = planar_sides(z, disks.corners)
-    residual = q2 * p1 - q1 * p2
-    lost = (residual.real**2 + residual.imag**2) / (4.0 * disks.geometry.double_area)
-    zb = z[disks.loop]
-    ahead, _ = neighbours(disks.first_boundary)
-    enclosed = np.imag(np.conj(zb) * zb[ahead])
-    conformal: Real = np.bincount(disks.of_face, lost, len(disks)).astype(np.float64, copy=False)
-    area: Real = 0.5 * np.bincount(disks.of_boundary, enclosed, len(disks))
-    return conformal, conformal + area
-
-
-def _surface(disks: Disks, disk: int) -> Surface:
-    """One of the disks by itself."""
-    v, f = disks.first_vertex[disk : disk + 2], disks.first_face[disk : disk + 2]
-    m, first = disks.corners.shape[1], int(v[0])
-    corners = disks.corners[:, f[0] : f[1]] - np.int32(first)
-    e = slice(*np.searchsorted(disks.edges.lo, v).tolist())
-    edge = disks.edges.edge.reshape(3, m)[:, f[0] : f[1]].reshape(-1) - np.int32(e.start)
-    twin = disks.edges.twin.reshape(3, m)[:, f[0] : f[1]].reshape(-1)
-    own = twin // m * (f[1] - f[0]) + twin % m - f[0]
-    edges = HalfEdges(
-        disks.edges.lo[e] - np.int32(first),
-        disks.edges.hi[e] - np.int32(first),
-        edge,
-        disks.edges.count[e].copy(),
-        np.where(twin < 0, twin, own).astype(np.int32),
-    )
-    part = slice(*f.tolist())
-    geometry = TriangleGeometry(disks.geometry.dot[:, part].copy(), disks.geometry.double_area[part].copy())
-    loop = disks.loop[disks.first_boundary[disk] : disks.first_boundary[disk + 1]] - first
-    return Surface(disks.V[slice(*v.tolist())].copy(), corners, edges, geometry, [loop], 1, float(disks.unit[disk]))
