@@ -133,8 +133,11 @@ def _atlases(rows: list[Row]) -> Iterator[Check]:
         one = Cheapest(mesh, size, ("one-disk",))
         yield _ratio(rows, f"10k {mesh}, linear / one disk of as many vertices", target, linear, one)
         yield _ratio(rows, f"10k {mesh}, default / linear", 2.0, default, linear)
-        ours, built_in = (Cheapest(mesh, size, names, _unwrap) for names in (("blender-ours-auto",), BUILT_IN))
-        yield _ratio(rows, f"10k {mesh}, in Blender, default / the faster built-in", 1.0, ours, built_in)
+        free, built_in = Cheapest(mesh, size, ("atlas-free",)), Cheapest(mesh, size, BUILT_IN, _unwrap)
+        yield _ratio(rows, f"10k {mesh}, free boundaries / linear", 2.0, free, linear)
+        for name, told in (("auto", "default"), ("free", "free boundaries")):
+            ours = Cheapest(mesh, size, (f"blender-ours-{name}",), _unwrap)
+            yield _ratio(rows, f"10k {mesh}, in Blender, {told} / the faster built-in", 1.0, ours, built_in)
     few, many = (Cheapest("triangles", count, ("atlas-linear",)) for count in (10_000, 100_000))
     yield _ratio(rows, "triangles, linear, 100k / ten times 10k", 3.0, many, few, scale=0.1)
     fan, one = (Cheapest("fan", 100_000, (name,)) for name in ("linear-cholmod", "one-disk"))

@@ -89,6 +89,7 @@ def _blender() -> list[Contestant]:
         bpy(f"blender-ours-{method}", options={"method": method.upper(), "ours": True}, group="ours")
         for method in (*METHODS, "auto")
     ]
+    ours.append(bpy("blender-ours-free", options={"shape": "FREE", "ours": True}, group="ours", target="free"))
     names = {"conformal": "CONFORMAL", "angle": "ANGLE_BASED"}
     return ours + [bpy(f"blender-{name}", options={"method": names[name]}, target="free") for name in names]
 
@@ -96,6 +97,7 @@ def _blender() -> list[Contestant]:
 def _atlases() -> list[Contestant]:
     atlas = partial(Contestant, module="atlas", group="ours", target="none", kinds=("atlas", "triangles"))
     found = [atlas(f"atlas-{method}", options={"method": method}) for method in ("linear", "auto")]
+    found.append(atlas("atlas-free", options={"shape": "free"}))
     options: Options = {"method": "linear", "backend": "auto", "prefix": "disk_"}
     return [*found, Contestant("one-disk", "disk", options, "limit", "none", ("atlas", "fan"))]
 

@@ -8,7 +8,7 @@ import numpy as np
 from .outcome import Arrays, Outcome, Stage
 
 
-def run(arrays: Arrays, stage: Stage, *, method: str, ours: bool = False) -> Outcome:
+def run(arrays: Arrays, stage: Stage, *, ours: bool = False, **options: str) -> Outcome:
     """An object of Blender's from the arrays, the operator in Edit Mode, and its coordinates read back."""
     V, F = arrays["V"], arrays["F"]
     stage("copying")
@@ -34,7 +34,7 @@ def run(arrays: Arrays, stage: Stage, *, method: str, ours: bool = False) -> Out
     bpy.ops.mesh.select_all(action="SELECT")
     stage("unwrap")
     unwrap = bpy.ops.uv.conformal_unwrap if ours else bpy.ops.uv.unwrap
-    unwrap(method=method)
+    unwrap(**options)
     stage("copying")
     bpy.ops.object.mode_set(mode="OBJECT")
     corner = np.empty(F.size, dtype=np.int32)
