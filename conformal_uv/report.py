@@ -9,16 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .charts import ChartList, Unwrapped
+from .disk import DiskMap
+from .free import FreeMap
 from .mesh.polygons import PolygonMesh
 from .mesh.triangulate import triangulate
 from .operators import Distortion
 from .operators.orientation_sign import orientation_signs
+from .rectangle import RectangleMap
 
 __all__ = [
     "DistortionNumbers",
     "UnwrapNumbers",
     "distortion_numbers",
     "flipped_polygons",
+    "shape_name",
     "unwrap_numbers",
 ]
 
@@ -194,6 +198,13 @@ def _coverage(
     if not used.size or used.min() < -BEYOND or used.max() > 1.0 + BEYOND:
         return None
     return float(image[taken].sum())
+
+
+def shape_name(result: DiskMap | FreeMap | RectangleMap) -> str:
+    """The name of a map for people: its method on the disk, else its shape."""
+    if isinstance(result, FreeMap):
+        return "free"
+    return "rectangle" if isinstance(result, RectangleMap) else result.method
 
 
 def flipped_polygons(mesh: PolygonMesh, corner_uv: NDArray[np.floating]) -> NDArray[np.int64]:

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 import conformal_uv as cuv
-from conformal_uv.cli import figure
-from conformal_uv.cli.triangle_picture import SAMPLES, TrianglePicture, faces_in_front, painted
+from conformal_uv.pictures import figure
+from conformal_uv.pictures.raster import SAMPLES, faces_in_front, painted
+from conformal_uv.pictures.triangle_picture import TrianglePicture
 
 
 def bumpy_grid(side: int) -> tuple[np.ndarray, np.ndarray]:

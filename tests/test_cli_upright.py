@@ -88,7 +88,7 @@ def test_straight_sides_of_what_lies_flat_run_along_the_squares(tmp_path: Path):
 
 
 def test_the_surface_in_the_picture_stands_as_its_charts():
-    from conformal_uv.cli.figure import _view
+    from conformal_uv.pictures.figure import _view
 
     V, F, flat = head()
     for upright, space in ((Upright.Z, V), (Upright.Y, V @ turned(-90.0, 0).T)):

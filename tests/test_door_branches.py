@@ -14,12 +14,12 @@ from typer.testing import CliRunner
 import conformal_uv as cuv
 from conformal_uv import PolygonMesh
 from conformal_uv.cli.app import app
-from conformal_uv.cli.figure import _joined
 from conformal_uv.cli.outputs import Outputs
 from conformal_uv.cli.seams import read_seams
 from conformal_uv.console import stages
 from conformal_uv.console.summary import distortion_summary
 from conformal_uv.files import MeshFile
+from conformal_uv.pictures.figure import _joined
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -73,7 +73,7 @@ def test_all_outputs_that_failed_are_told(tmp_path: Path) -> None:
         pytest.raises(cuv.ConformalUVError, match=r"^a\.obj: no room; b\.png: no room$"),
         stages.Stages(quiet=True) as s,
     ):
-        outputs.write(s, {"a": 1}, failing, failing)
+        outputs.write(s, {"a": 1}, failing, failing, failing)
     assert json.loads((tmp_path / "c.json").read_text()) == {"a": 1}
 
 

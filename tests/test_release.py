@@ -87,7 +87,8 @@ def test_what_would_find_another_copy_is_refused(line: str) -> None:
 def test_the_extension_carries_addon_and_core() -> None:
     files = extension_files(ROOT)
     assert {"LICENSE", "__init__.py", "worker.py", "conformal_uv/__init__.py", "conformal_uv/py.typed"} <= set(files)
-    assert not any(name.startswith(("conformal_uv/cli/", "conformal_uv/console/")) for name in files)
+    rooms = ("cli", "console", "page", "pictures", "show")
+    assert not any(name.startswith(tuple(f"conformal_uv/{room}/" for room in rooms)) for name in files)
     assert not any("__pycache__" in name or name.endswith(".pyc") for name in files)
     changed = []
     for name, data in files.items():

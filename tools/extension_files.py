@@ -10,7 +10,7 @@ from .relative_imports import absolute_imports, with_relative_imports
 __all__ = ["extension_files"]
 
 CORE = "conformal_uv"
-NOT_CARRIED = (f"{CORE}/cli/", f"{CORE}/console/", f"{CORE}/__main__.py")  # the shell's door; it needs typer and rich
+NOT_CARRIED = tuple(f"{CORE}/{name}" for name in ("cli/", "console/", "page/", "pictures/", "show/", "__main__.py"))
 HIDDEN = ("__pycache__", ".")
 
 

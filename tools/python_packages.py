@@ -14,7 +14,7 @@ from .reproducible import rewritten_sdist, rewritten_wheel
 
 __all__ = ["build_packages"]
 
-SOURCES = ("conformal_uv", "meshlab_filter", "pyproject.toml", "README.md", "LICENSE")
+SOURCES = ("conformal_uv", "meshlab_filter", "web", "pyproject.toml", "MANIFEST.in", "README.md", "LICENSE")
 
 
 def build_packages(repository: Path, output: Path, date: int) -> list[Path]:
@@ -31,7 +31,7 @@ def build_packages(repository: Path, output: Path, date: int) -> list[Path]:
         for name in SOURCES:
             given = repository / name
             if given.is_dir():
-                shutil.copytree(given, source / name, ignore=shutil.ignore_patterns("__pycache__"))
+                shutil.copytree(given, source / name, ignore=shutil.ignore_patterns("__pycache__", "node_modules"))
             else:
                 shutil.copy(given, source / name)
         done = subprocess.run(

@@ -17,6 +17,7 @@ __all__ = [
     "JsonFile",
     "MeshFormat",
     "NonManifoldParts",
+    "PageFile",
     "PictureFile",
     "PlaceInSquare",
     "Quiet",
@@ -60,5 +61,8 @@ MeshFormat = Annotated[
 JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")]
 PictureFile = Annotated[
     Path | None, typer.Option(metavar="FILE", help="Draw the surface, the flattened mesh and its angle error.")
+]
+PageFile = Annotated[
+    Path | None, typer.Option("--html", metavar="FILE", help="Write a web page: the surface beside its map, by hand.")
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar and no table.")]

@@ -30,6 +30,7 @@ from .arguments import (
     JsonFile,
     MeshFormat,
     NonManifoldParts,
+    PageFile,
     PictureFile,
     PlaceInSquare,
     Quiet,
@@ -78,6 +79,7 @@ def disk(
     format: MeshFormat = None,
     json_file: JsonFile = None,
     plot: PictureFile = None,
+    html_file: PageFile = None,
     quiet: Quiet = False,
 ) -> None:
     """Map surfaces with disk topology onto the unit disk.
@@ -111,5 +113,6 @@ def disk(
         format=format,
         json_file=json_file,
         plot=plot,
+        html_file=html_file,
         quiet=quiet,
     )

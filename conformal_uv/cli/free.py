@@ -26,6 +26,7 @@ from .arguments import (
     JsonFile,
     MeshFormat,
     NonManifoldParts,
+    PageFile,
     PictureFile,
     PlaceInSquare,
     Quiet,
@@ -64,6 +65,7 @@ def free(
     format: MeshFormat = None,
     json_file: JsonFile = None,
     plot: PictureFile = None,
+    html_file: PageFile = None,
     quiet: Quiet = False,
 ) -> None:
     """Lay surfaces with disk topology into the plane, each with its own outline.
@@ -91,5 +93,6 @@ def free(
         format=format,
         json_file=json_file,
         plot=plot,
+        html_file=html_file,
         quiet=quiet,
     )

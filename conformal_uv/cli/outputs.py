@@ -11,14 +11,14 @@ from typing import Any
 from ..console.stages import Stages
 from ..errors import ConformalUVError
 from ..files import check_distinct, check_place, check_writable, is_standard_output, replaced_file
-from .figure import check_drawable
+from ..pictures.figure import check_drawable
 
 __all__ = ["Outputs"]
 
 
 @dataclass(frozen=True)
 class Outputs:
-    """Where a command's mesh, numbers and picture go; None for what is not asked for.
+    """Where a command's mesh, numbers, picture and page go; None for what is not asked for.
 
     Parameters
     ----------
@@ -32,6 +32,7 @@ class Outputs:
     mesh: Path | None = None
     json: Path | None = None
     plot: Path | None = None
+    html: Path | None = None
     format: str | None = None
 
     def check(self) -> None:
@@ -41,7 +42,7 @@ class Outputs:
         ------
         OptionError, FileFormatError, MissingDependencyError
         """
-        check_distinct(self.source, {"OUT": self.mesh, "--json": self.json, "--plot": self.plot})
+        check_distinct(self.source, {"OUT": self.mesh, "--json": self.json, "--plot": self.plot, "--html": self.html})
         if self.mesh is not None:
             check_writable(self.mesh, format=self.format)
         if self.json is not None:
@@ -49,11 +50,13 @@ class Outputs:
         if self.plot is not None:
             check_drawable(self.plot)
             check_place(self.plot)
+        if self.html is not None:
+            check_place(self.html)
 
     @property
     def on_stdout(self) -> bool:
         """Whether one of them goes to standard output, where nothing else may go then."""
-        return any(is_standard_output(path) for path in (self.mesh, self.json, self.plot))
+        return any(is_standard_output(path) for path in (self.mesh, self.json, self.plot, self.html))
 
     def write(
         self,
@@ -61,6 +64,7 @@ class Outputs:
         summary: dict[str, Any],
         write_mesh: Callable[[Path], None],
         draw: Callable[[Path], None],
+        write_page: Callable[[Path], None],
     ) -> None:
         """Write what is asked for; one that fails does not keep the others from their files.
 
@@ -69,7 +73,7 @@ class Outputs:
         ConformalUVError
             Of those that failed, one after the other.
         """
-        wanted = [("write", self.mesh, write_mesh), ("plot", self.plot, draw)]
+        wanted = [("write", self.mesh, write_mesh), ("plot", self.plot, draw), ("page", self.html, write_page)]
         wanted.append(("numbers", self.json, lambda _: self.write_numbers(summary)))
         failures: list[ConformalUVError | OSError] = []
         for stage, path, writer in wanted:

@@ -27,6 +27,7 @@ from .arguments import (
     JsonFile,
     MeshFormat,
     NonManifoldParts,
+    PageFile,
     PictureFile,
     PlaceInSquare,
     Quiet,
@@ -71,6 +72,7 @@ def rectangle(
     format: MeshFormat = None,
     json_file: JsonFile = None,
     plot: PictureFile = None,
+    html_file: PageFile = None,
     quiet: Quiet = False,
 ) -> None:
     """Map surfaces with disk topology onto rectangles, their boundary exactly onto the sides.
@@ -99,5 +101,6 @@ def rectangle(
         format=format,
         json_file=json_file,
         plot=plot,
+        html_file=html_file,
         quiet=quiet,
     )

@@ -17,10 +17,12 @@ from ..files import MeshFile, read_mesh, write_mesh
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangulate import triangulate
 from ..options import Backend, Laplacian, Normalization, Repair, Rotation, SphereBoundary, SphereLayout, SphereMethod
+from ..page import write_page
+from ..pictures.figure import draw_sphere_map
 from ..report import distortion_numbers
 from ..sphere import SphereMap, sphere_map
 from ..sphere.layout import equirectangular, octahedral
-from .figure import draw_sphere_map
+from .arguments import PageFile
 from .numbers import three_numbers
 from .outputs import Outputs
 
@@ -52,6 +54,7 @@ def sphere(
     plot: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw the surface and its sphere in the same colours.")
     ] = None,
+    html_file: PageFile = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar and no table.")] = False,
 ) -> None:
     """Map a closed surface of genus 0 onto the unit sphere.
@@ -59,7 +62,7 @@ def sphere(
     OUT has the faces of IN and the positions on the sphere; its UVs are those of --uv, if any.
     """
     marks = three_numbers(landmarks)
-    outputs = Outputs(source, target, json_file, plot, format)
+    outputs = Outputs(source, target, json_file, plot, html_file, format)
     outputs.check()
     with Stages(quiet=quiet) as stages:
         stages("read", 0.0)
@@ -87,6 +90,7 @@ def sphere(
             summary,
             lambda path: write_mesh(path, MeshFile(path, image), corner_uv=corner_uv, split=split, format=format),
             lambda path: draw_sphere_map(path, result, source.name),
+            lambda path: write_page(path, result, source.name),
         )
     if not quiet:
         _print(summary, stderr=outputs.on_stdout)

@@ -15,7 +15,8 @@ from ..console.terminal import plain
 from ..errors import Remedy
 from ..files import read_mesh, write_mesh
 from ..options import Shape, Upright
-from .figure import draw_unwrapped
+from ..page import write_page
+from ..pictures.figure import draw_unwrapped
 from .outputs import Outputs
 from .seams import read_seams
 
@@ -33,6 +34,7 @@ def unwrap_file(
     format: str | None,
     json_file: Path | None,
     plot: Path | None,
+    html_file: Path | None,
     quiet: bool,
     **options: Any,
 ) -> None:
@@ -45,7 +47,7 @@ def unwrap_file(
     typer.Exit
         Some of several charts were not mapped; the others are written.
     """
-    outputs = Outputs(source, target, json_file, plot, format)
+    outputs = Outputs(source, target, json_file, plot, html_file, format)
     outputs.check()
     with Stages(quiet=quiet) as stages:
         stages("read", 0.0)
@@ -63,6 +65,7 @@ def unwrap_file(
             summary,
             lambda path: write_mesh(path, mesh_file, corner_uv=corner_uv, split=split, format=format),
             lambda path: draw_unwrapped(path, result, source.name, upright),
+            lambda path: write_page(path, result, source.name, upright),
         )
     if not quiet:
         print_summary(summary, stderr=outputs.on_stdout)

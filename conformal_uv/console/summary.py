@@ -14,7 +14,7 @@ from ..disk import DiskMap
 from ..errors import Remedy
 from ..free import FreeMap
 from ..rectangle import RectangleMap
-from ..report import DistortionNumbers, distortion_numbers, unwrap_numbers
+from ..report import DistortionNumbers, distortion_numbers, shape_name, unwrap_numbers
 from .terminal import plain
 
 __all__ = [
@@ -23,7 +23,6 @@ __all__ = [
     "iterations_text",
     "print_rows",
     "print_summary",
-    "shape_name",
     "unwrapped_summary",
 ]
 
@@ -92,13 +91,6 @@ def _chart_summary(number: int, chart: Chart, lost_to_float32: int) -> dict[str,
     assert chart.map is not None and chart.distortion is not None
     told.update(_map_summary(chart.map), lost_to_float32=lost_to_float32)
     return {**told, **distortion_summary(distortion_numbers([chart.distortion]))}
-
-
-def shape_name(result: DiskMap | FreeMap | RectangleMap) -> str:
-    """The name of a map for people: its method on the disk, else its shape."""
-    if isinstance(result, FreeMap):
-        return "free"
-    return "rectangle" if isinstance(result, RectangleMap) else result.method
 
 
 def _map_summary(result: DiskMap | FreeMap | RectangleMap) -> dict[str, Any]:

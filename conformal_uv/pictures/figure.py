@@ -10,14 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..charts import Chart, Unwrapped
-from ..console.summary import shape_name
 from ..errors import MissingDependencyError, OptionError
 from ..files import replaced_file
 from ..free import FreeMap
 from ..operators import Distortion
 from ..options import Upright
 from ..rectangle import RectangleMap
+from ..report import shape_name
 from ..sphere import SphereMap
+from .first_view import first_view
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,7 +28,6 @@ __all__ = ["check_drawable", "draw_sphere_map", "draw_unwrapped"]
 SUFFIXES = (".png", ".pdf", ".svg")
 
 DETAILED = 20000  # faces up to which each is a shape of its own, with edges in the map
-LIES_FLAT = 0.05  # sine of the slope, as of charts
 FLIPPED = (0.9, 0.1, 0.1, 1.0)
 LIGHT = np.array([-0.35, 0.45, 0.82])
 
@@ -131,29 +131,13 @@ def _view(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Triangles (m, 3, 3) seen along their mean normal: in the picture (m, 3, 2), depth (m,), colour (m, 4)."""
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    mean = cross.sum(axis=0)
-    if np.linalg.norm(mean) < 1e-3 * np.linalg.norm(cross, axis=1).sum():
-        mean = np.array([1.0, -1.0, 0.8])
-    front = mean / np.linalg.norm(mean)
-    up = _up(front, upright)
-    right = np.cross(up, front)
-    right /= np.linalg.norm(right)
-    axes = np.stack((right, np.cross(front, right), front))
+    axes = first_view(cross, upright)
     turned = corners @ axes.T
     length = np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), np.finfo(float).tiny)
     facing = (cross / length) @ axes.T @ (LIGHT / np.linalg.norm(LIGHT))
     light = 0.97 * (0.5 + 0.5 * facing) ** 1.5
     colour = np.column_stack((light, 0.97 * light, 0.92 * light, np.ones(len(corners))))
     return turned[:, :, :2], turned[:, :, 2].mean(axis=1), colour
-
-
-def _up(front: NDArray[np.float64], upright: Upright) -> NDArray[np.float64]:
-    """What is up in the picture of a surface seen from `front`: as of its charts, else y, or z of what faces y."""
-    y, z = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
-    if upright is Upright.NONE:
-        return y if abs(front[1]) < 0.8 else z
-    axis, beyond = (z, y) if upright is Upright.Z else (y, -z)
-    return axis if np.linalg.norm(np.cross(front, axis)) > LIES_FLAT else beyond
 
 
 def _joined(charts: list[Chart]) -> Distortion:

@@ -1,0 +1,1 @@
+"""Pictures of maps: three panels by matplotlib, thumbnails by numpy."""

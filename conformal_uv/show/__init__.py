@@ -1,0 +1,1 @@
+"""Results shown in notebooks, other programs and windows."""
