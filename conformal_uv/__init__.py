@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
+from .shown import Shown
 
 if TYPE_CHECKING:
     from .charts import (
@@ -176,6 +177,9 @@ _HOME = {
     "unwrap": "charts",
     "unwrap_numbers": "report",
 }
+
+
+Shown.shown_by(lambda: import_module(".show", __name__))
 
 
 def __getattr__(name: str) -> Any:

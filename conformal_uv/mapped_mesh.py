@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .charts import Unwrapped
+from .concise import Concise
 from .disk import DiskMap
 from .errors import MeshError
 from .free import FreeMap
@@ -20,8 +21,8 @@ __all__ = ["AnyMap", "MappedMesh", "mapped_mesh"]
 AnyMap = DiskMap | FreeMap | RectangleMap | SphereMap | Unwrapped
 
 
-@dataclass(frozen=True, eq=False)
-class MappedMesh:
+@dataclass(frozen=True, eq=False, repr=False)
+class MappedMesh(Concise):
     """Positions on the surface and in the map, of the same vertices.
 
     Attributes

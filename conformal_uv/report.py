@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .charts import ChartList, Unwrapped
+from .concise import Concise
 from .disk import DiskMap
 from .free import FreeMap
 from .mesh.polygons import PolygonMesh
@@ -59,8 +60,8 @@ class DistortionNumbers:
     area_ratio: float | None
 
 
-@dataclass(frozen=True, eq=False)
-class UnwrapNumbers:
+@dataclass(frozen=True, eq=False, repr=False)
+class UnwrapNumbers(Concise):
     """What came of an unwrap, over all its charts or some of them.
 
     Attributes

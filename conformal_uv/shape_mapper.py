@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from .disk import DiskMap, DiskMapper
 from .free import FreeMap, mapped_free
+from .mesh.mesh_objects import MeshObject
 from .operators.factorized_disk import FactorizedDisk
 from .options import FreeOptions, RectangleOptions
 from .progress import Callback, Progress
@@ -46,8 +47,8 @@ class ShapeMapper:
 
     def __init__(
         self,
-        V: ArrayLike,
-        F: ArrayLike,
+        V: ArrayLike | MeshObject,
+        F: ArrayLike | None = None,
         *,
         laplacian: str = "auto",
         backend: str = "auto",

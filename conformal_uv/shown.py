@@ -18,6 +18,11 @@ class Shown:
 
     _room: ClassVar[Callable[[], Any]]
 
+    @staticmethod
+    def shown_by(room: Callable[[], Any]) -> None:
+        """Tell where the functions are that do it, of the names of these methods; asked when one is first needed."""
+        Shown._room = staticmethod(room)
+
     def plot(self, path: str | PathLike[str] | None = None, *, title: str = "", upright: str = "z") -> Any:
         """The surface, the map and the angle error on it, as a matplotlib figure.
 
@@ -88,7 +93,3 @@ class Shown:
     def _repr_html_(self) -> str:
         """Numbers and a small picture, for notebooks."""
         return Shown._room().summary_html(self)
-
-    def __repr__(self) -> str:
-        """One line of numbers."""
-        return Shown._room().summary_line(self)

@@ -73,7 +73,7 @@ def test_a_pixel_is_the_mean_of_its_samples_and_as_opaque_as_they_are_many():
 def drawn(monkeypatch: pytest.MonkeyPatch, path: Path, detailed: int) -> bytes:
     V, F = bumpy_grid(16)
     monkeypatch.setattr(figure, "DETAILED", detailed)
-    figure.draw_unwrapped(path, cuv.unwrap(V, F), "grid")
+    figure.draw_map(path, cuv.unwrap(V, F), "grid")
     return path.read_bytes()
 
 
@@ -115,7 +115,7 @@ def test_flipped_triangles_smaller_than_a_pixel_are_seen(monkeypatch: pytest.Mon
     pictures = []
     for flipped in ([], [face]):
         object.__setattr__(chart.distortion, "flipped", np.array(flipped, dtype=np.int64))
-        figure.draw_unwrapped(tmp_path / "p.png", result, "grid")
+        figure.draw_map(tmp_path / "p.png", result, "grid")
         pictures.append(pixels((tmp_path / "p.png").read_bytes())[80:])  # without the title, which tells their number
     assert 1 <= np.count_nonzero(np.abs(pictures[1] - pictures[0]).max(axis=-1) > 30) <= 16
 

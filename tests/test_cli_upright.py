@@ -88,9 +88,9 @@ def test_straight_sides_of_what_lies_flat_run_along_the_squares(tmp_path: Path):
 
 
 def test_the_surface_in_the_picture_stands_as_its_charts():
-    from conformal_uv.pictures.figure import _view
+    from conformal_uv.pictures.first_view import seen_triangles
 
     V, F, flat = head()
     for upright, space in ((Upright.Z, V), (Upright.Y, V @ turned(-90.0, 0).T)):
-        picture, _, _ = _view(space[F], upright)
+        picture, _, _ = seen_triangles(space[F], upright)
         assert degrees_from_v(picture.reshape(-1, 2), F, flat) < 1.0

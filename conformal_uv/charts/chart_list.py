@@ -50,6 +50,9 @@ class ChartList(Sequence[Chart]):
         self._first = np.concatenate(([0], np.cumsum(np.bincount(chart_of_polygon, minlength=split.count))))
         self._made: dict[int, Chart] = {}
 
+    def __repr__(self) -> str:
+        return f"ChartList of {len(self)} charts, {int(self.mapped.sum())} mapped"
+
     def __len__(self) -> int:
         return self.split.count
 

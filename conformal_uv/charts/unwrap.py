@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from numpy.typing import ArrayLike
 
+from ..mesh.mesh_objects import MeshObject
 from ..progress import Callback
 from .arguments import Polygons
 from .unwrapped import Unwrapped
@@ -15,8 +16,8 @@ __all__ = ["unwrap"]
 
 
 def unwrap(
-    V: ArrayLike | None,
-    polygons: Polygons,
+    V: ArrayLike | MeshObject | None,
+    polygons: Polygons | None = None,
     *,
     seams: ArrayLike | None = None,
     selection: ArrayLike | None = None,
@@ -56,7 +57,8 @@ def unwrap(
     Parameters
     ----------
     V : (n, 3) floats
-        Vertex positions; None where `polygons` is a PolygonMesh.
+        Vertex positions; None where `polygons` is a PolygonMesh; or, without `polygons`, a mesh: (V, polygons), or one
+        of trimesh, pyvista, meshio or open3d.
     polygons : (m, k) integers, a list of vertex lists, or a PolygonMesh
         Vertices of each polygon in winding order, 0-based, three or more.
     seams : (s, 2) integers, optional

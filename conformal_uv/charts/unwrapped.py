@@ -8,8 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..concise import Concise
 from ..errors import ConformalUVError, Remedy, listed
 from ..operators.orientation_sign import orientation_signs
+from ..shown import Shown
 from .chart_list import ChartList
 
 __all__ = ["Unwrapped"]
@@ -17,8 +19,8 @@ __all__ = ["Unwrapped"]
 MOST_REASONS = 8
 
 
-@dataclass(frozen=True, eq=False)
-class Unwrapped:
+@dataclass(frozen=True, eq=False, repr=False)
+class Unwrapped(Shown, Concise):
     """Texture coordinates on the caller's own polygons.
 
     Attributes

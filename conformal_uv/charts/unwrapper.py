@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..linear.backends import choose_backend
+from ..mesh.mesh_objects import MeshObject, polygons_of
 from ..options import ChartOptions, DiskOptions, Laplacian, Place, PlaceOptions, Shape, ShapeOptions, SplitOptions
 from ..progress import Callback
 from .arguments import Polygons, polygon_mesh, seam_pairs, selected_polygons, used_vertices, vertex_list
@@ -53,8 +54,8 @@ class Unwrapper:
 
     def __init__(
         self,
-        V: ArrayLike | None,
-        polygons: Polygons,
+        V: ArrayLike | MeshObject | None,
+        polygons: Polygons | None = None,
         *,
         seams: ArrayLike | None = None,
         selection: ArrayLike | None = None,
@@ -67,7 +68,7 @@ class Unwrapper:
         ChartProgress(callback).report("charts", 0.0)
         kind = Laplacian.of("laplacian", laplacian)
         choose_backend(backend)  # complains of what is not there before any work
-        mesh, finite = polygon_mesh(V, polygons)
+        mesh, finite = polygon_mesh(*polygons_of(V, polygons))
         selected = selected_polygons(selection, mesh)
         self._corner_count, self._face_count = len(mesh.corners), len(mesh.sizes)
         self._used = used_vertices(mesh, selected)

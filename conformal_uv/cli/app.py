@@ -19,6 +19,7 @@ from .rectangle import rectangle
 from .report import report
 from .sample import sample
 from .sphere import sphere
+from .view import view
 
 __all__ = ["app"]
 
@@ -69,5 +70,5 @@ def options(
     """Flatten surfaces, or map them to the unit sphere, with their angles kept."""
 
 
-for command in (disk, free, rectangle, sphere, report, sample):
+for command in (disk, free, rectangle, sphere, view, report, sample):
     app.command()(interruptible(_told(command)))

@@ -15,14 +15,14 @@ from ..console.stages import Stages
 from ..console.summary import angles_text, distortion_summary, iterations_text, print_rows
 from ..files import MeshFile, read_mesh, write_mesh
 from ..mesh.polygons import PolygonMesh
-from ..mesh.triangulate import triangulate
 from ..options import Backend, Laplacian, Normalization, Repair, Rotation, SphereBoundary, SphereLayout, SphereMethod
 from ..page import write_page
-from ..pictures.figure import draw_sphere_map
+from ..pictures.figure import draw_map
 from ..report import distortion_numbers
 from ..sphere import SphereMap, sphere_map
 from ..sphere.layout import equirectangular, octahedral
 from .arguments import PageFile
+from .compact import compact_triangles
 from .numbers import three_numbers
 from .outputs import Outputs
 
@@ -67,7 +67,7 @@ def sphere(
     with Stages(quiet=quiet) as stages:
         stages("read", 0.0)
         mesh = read_mesh(source, format=format).mesh
-        V, F = _compact(mesh)
+        V, F = compact_triangles(mesh)
         result = sphere_map(
             V,
             F,
@@ -89,18 +89,11 @@ def sphere(
             stages,
             summary,
             lambda path: write_mesh(path, MeshFile(path, image), corner_uv=corner_uv, split=split, format=format),
-            lambda path: draw_sphere_map(path, result, source.name),
+            lambda path: draw_map(path, result, source.name),
             lambda path: write_page(path, result, source.name),
         )
     if not quiet:
         _print(summary, stderr=outputs.on_stdout)
-
-
-def _compact(mesh: PolygonMesh) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Vertices in use and triangles over them."""
-    F, _, _ = triangulate(mesh)
-    used, F = np.unique(F, return_inverse=True)
-    return mesh.V[used], F.reshape(-1, 3)
 
 
 def _on_all(xyz: NDArray[np.float64], mesh: PolygonMesh) -> NDArray[np.float64]:

@@ -16,7 +16,7 @@ from ..errors import Remedy
 from ..files import read_mesh, write_mesh
 from ..options import Shape, Upright
 from ..page import write_page
-from ..pictures.figure import draw_unwrapped
+from ..pictures.figure import draw_map
 from .outputs import Outputs
 from .seams import read_seams
 
@@ -64,7 +64,7 @@ def unwrap_file(
             stages,
             summary,
             lambda path: write_mesh(path, mesh_file, corner_uv=corner_uv, split=split, format=format),
-            lambda path: draw_unwrapped(path, result, source.name, upright),
+            lambda path: draw_map(path, result, source.name, upright),
             lambda path: write_page(path, result, source.name, upright),
         )
     if not quiet:

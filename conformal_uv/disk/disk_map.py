@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from numpy.typing import ArrayLike
 
+from ..mesh.mesh_objects import MeshObject
 from ..progress import Callback
 from .mapper import DiskMapper
 from .result import DiskMap
@@ -14,8 +15,8 @@ __all__ = ["disk_map"]
 
 
 def disk_map(
-    V: ArrayLike,
-    F: ArrayLike,
+    V: ArrayLike | MeshObject,
+    F: ArrayLike | None = None,
     *,
     method: str = "auto",
     objective: str | None = None,
@@ -37,7 +38,7 @@ def disk_map(
     Parameters
     ----------
     V : (n, 3) floats
-        Vertex positions, any units.
+        Vertex positions, any units; or, without F, a mesh: (V, F), or one of trimesh, pyvista, meshio or open3d.
     F : (m, 3) integers
         Triangles, 0-based, consistently wound: one connected surface with one boundary loop and no handles.
     method : {"auto", "linear", "newton", "augmented-lagrangian"}

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..mesh.mesh_objects import MeshObject
 from ..operators.angle_mean import AngleMean
 from ..operators.dirichlet import DirichletProblem
 from ..operators.factorized_disk import FactorizedDisk
@@ -72,8 +73,8 @@ class DiskMapper:
 
     def __init__(
         self,
-        V: ArrayLike,
-        F: ArrayLike,
+        V: ArrayLike | MeshObject,
+        F: ArrayLike | None = None,
         *,
         laplacian: str = "auto",
         backend: str = "auto",

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..concise import Concise
 from ..mesh.surface import Surface
 from ..operators.distortion import Distortion, distortion_of
 from ..operators.orientation_sign import orientation_signs
@@ -15,6 +16,7 @@ from ..operators.plane_map import unresolved_faces
 from ..operators.wirtinger import conformal_energy, enclosed_area
 from ..optimize import AugmentedLagrangianStep, NewtonStep
 from ..options import DiskOptions
+from ..shown import Shown
 from .repair import Repair
 from .solution import Solution
 
@@ -23,8 +25,8 @@ __all__ = ["DiskMap", "disk_map_result"]
 Complex = NDArray[np.complex128]
 
 
-@dataclass(frozen=True, eq=False)
-class DiskMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class DiskMap(Shown, Concise):
     """A map of a surface to the unit disk.
 
     Attributes

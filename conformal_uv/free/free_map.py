@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
+from ..mesh.mesh_objects import MeshObject
 from ..operators.factorized_disk import FactorizedDisk
 from ..options import FreeOptions, Repair
 from ..progress import Callback, Progress
@@ -14,8 +15,8 @@ __all__ = ["free_map"]
 
 
 def free_map(
-    V: ArrayLike,
-    F: ArrayLike,
+    V: ArrayLike | MeshObject,
+    F: ArrayLike | None = None,
     *,
     boundary_scale: ArrayLike | None = None,
     boundary_angles: ArrayLike | None = None,
@@ -35,7 +36,7 @@ def free_map(
     Parameters
     ----------
     V : (n, 3) floats
-        Vertex positions, any units.
+        Vertex positions, any units; or, without F, a mesh: (V, F), or one of trimesh, pyvista, meshio or open3d.
     F : (m, 3) integers
         Triangles, 0-based, consistently wound: one connected surface with one boundary loop and no handles.
     boundary_scale : (nb,) floats, optional

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..concise import Concise
 from ..disk.repair import Repair
 from ..errors import NonFiniteError
 from ..mesh.surface import Surface
@@ -16,12 +17,13 @@ from ..operators.distortion import Distortion, distortion_of
 from ..operators.orientation_sign import flipped_faces
 from ..operators.plane_map import PlaneMap
 from ..operators.polygon_crossings import polygon_crossings
+from ..shown import Shown
 
 __all__ = ["FreeMap", "free_map_result"]
 
 
-@dataclass(frozen=True, eq=False)
-class FreeMap(PlaneMap):
+@dataclass(frozen=True, eq=False, repr=False)
+class FreeMap(PlaneMap, Shown, Concise):
     """A map of a surface to the plane whose boundary takes its own shape.
 
     Attributes

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..concise import Concise
 from .blocks import by_blocks
 
 __all__ = ["TriangleGeometry", "triangle_geometry"]
@@ -15,8 +16,8 @@ __all__ = ["TriangleGeometry", "triangle_geometry"]
 Real = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
-class TriangleGeometry:
+@dataclass(frozen=True, eq=False, repr=False)
+class TriangleGeometry(Concise):
     """Corner products and areas of triangles, in the units of the positions squared.
 
     Attributes

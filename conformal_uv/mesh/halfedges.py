@@ -11,11 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from ..concise import Concise
+
 __all__ = ["HalfEdges", "half_edges", "joined_pairs", "paired_sides", "sorted_pairs"]
 
 
-@dataclass(frozen=True, eq=False)
-class HalfEdges:
+@dataclass(frozen=True, eq=False, repr=False)
+class HalfEdges(Concise):
     """Edges in order of (lower vertex, higher vertex), and the half-edges (or sides of polygons, k of them) on each.
 
     Attributes

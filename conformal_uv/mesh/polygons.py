@@ -7,11 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..concise import Concise
+
 __all__ = ["PolygonMesh"]
 
 
-@dataclass(frozen=True, eq=False)
-class PolygonMesh:
+@dataclass(frozen=True, eq=False, repr=False)
+class PolygonMesh(Concise):
     """Vertices and polygons; face f has the corners ``starts[f] .. starts[f + 1] - 1``.
 
     Attributes

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..concise import Concise
 from ..errors import DegenerateFaceError, DisconnectedError, NonManifoldError, TopologyError, listed
 from .arrays import check_referenced, face_array, on_one_line, scaled, vertex_array
 from .geometry import TriangleGeometry, triangle_geometry
@@ -24,8 +25,8 @@ from .manifold import (
 __all__ = ["Surface"]
 
 
-@dataclass(frozen=True, eq=False)
-class Surface:
+@dataclass(frozen=True, eq=False, repr=False)
+class Surface(Concise):
     """An oriented 2-manifold triangle mesh, every vertex used. Its arrays are not writeable.
 
     Attributes

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..concise import Concise
 from ..errors import MeshError, NonFiniteError, listed
 from ..mesh.arrays import face_array, scaled, vertex_array
 from ..mesh.blocks import by_blocks
@@ -22,8 +23,8 @@ Real = NDArray[np.float64]
 RATIOS = (2.0**-1000, 2.0**1000)  # of units, whose squares then make every area 0 or infinite
 
 
-@dataclass(frozen=True, eq=False)
-class Distortion:
+@dataclass(frozen=True, eq=False, repr=False)
+class Distortion(Concise):
     """Distortion of a piecewise linear map, face by face.
 
     Attributes

@@ -5,6 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from ..linear.backends import choose_backend
+from ..mesh.mesh_objects import MeshObject, triangles_of
 from ..mesh.surface import Surface
 from ..options import Laplacian
 from ..progress import Callback, Progress
@@ -45,8 +46,8 @@ class FactorizedDisk:
 
     def __init__(
         self,
-        V: ArrayLike,
-        F: ArrayLike,
+        V: ArrayLike | MeshObject,
+        F: ArrayLike | None = None,
         *,
         laplacian: str = "auto",
         backend: str = "auto",
@@ -55,7 +56,7 @@ class FactorizedDisk:
         self.kind = Laplacian.of("laplacian", laplacian)
         self.asked, self.backend = backend, choose_backend(backend)
         Progress(callback)("checks", 0.0)
-        self.surface = Surface.from_arrays(V, F)
+        self.surface = Surface.from_arrays(*triangles_of(V, F))
         self.boundary = self.surface.require_disk()
         self.surface.require_extent()
         self._laplacians: dict[Laplacian, EdgeLaplacian] = {}

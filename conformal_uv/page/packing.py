@@ -51,14 +51,16 @@ def packed_reals(
     most = 2 ** (8 * width) - 1
     step = float((high - low).max()) / most or 1.0
     steps = np.clip(np.rint((table - low) / step), 0, most).astype(np.int64)
-    return PackedArray(name, *table.shape, width, low.tolist(), step, _coded(steps, width))
+    rows, columns = table.shape
+    return PackedArray(name, rows, columns, width, low.tolist(), step, _coded(steps, width))
 
 
 def packed_integers(name: str, values: NDArray[np.integer]) -> PackedArray:
     """Whole numbers (n, c) from 0 to 2^32 - 1."""
     table = np.asarray(values, dtype=np.int64)
     width = max(1, (int(table.max(initial=0)).bit_length() + 7) // 8)
-    return PackedArray(name, *table.shape, width, [0.0] * table.shape[1], 1.0, _coded(table, width))
+    rows, columns = table.shape
+    return PackedArray(name, rows, columns, width, [0.0] * columns, 1.0, _coded(table, width))
 
 
 def _coded(table: NDArray[np.int64], width: int) -> bytes:

@@ -10,86 +10,109 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..charts import Chart, Unwrapped
+from ..disk import DiskMap
 from ..errors import MissingDependencyError, OptionError
 from ..files import replaced_file
 from ..free import FreeMap
+from ..mapped_mesh import AnyMap, mapped_mesh
 from ..operators import Distortion
 from ..options import Upright
 from ..rectangle import RectangleMap
 from ..report import shape_name
 from ..sphere import SphereMap
-from .first_view import first_view
+from .first_view import seen_triangles
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-__all__ = ["check_drawable", "draw_sphere_map", "draw_unwrapped"]
+__all__ = ["check_drawable", "draw_figure", "draw_map", "map_figure"]
 
 SUFFIXES = (".png", ".pdf", ".svg")
 
 DETAILED = 20000  # faces up to which each is a shape of its own, with edges in the map
 FLIPPED = (0.9, 0.1, 0.1, 1.0)
-LIGHT = np.array([-0.35, 0.45, 0.82])
 
 
-def check_drawable(path: Path) -> None:
+def check_drawable(path: Path, name: str = "--plot") -> None:
     """Raise OptionError or MissingDependencyError where no picture could be drawn into this file."""
     if path.suffix.lower() not in SUFFIXES:
-        raise OptionError(f"--plot {path.name}: choose a file name that ends in {', '.join(SUFFIXES)}.")
+        raise OptionError(f"{name} {path.name}: choose a file name that ends in {', '.join(SUFFIXES)}.")
     if find_spec("matplotlib") is None:
-        raise MissingDependencyError('--plot needs matplotlib: pip install "conformal-uv[plot]".')
+        raise MissingDependencyError(f'{name} needs matplotlib: pip install "conformal-uv[plot]".')
 
 
-def draw_unwrapped(path: Path, result: Unwrapped, title: str, upright: Upright = Upright.NONE) -> None:
-    """Draw an unwrapped mesh into a PNG, PDF or SVG file, the surface `upright` as its charts are."""
+def draw_map(path: Path, result: AnyMap, title: str, upright: Upright = Upright.NONE) -> None:
+    """Draw `map_figure` into a PNG, PDF or SVG file."""
+    draw_figure(path, map_figure(result, title, upright))
+
+
+def draw_figure(path: Path, figure: Figure) -> None:
+    """Write a figure into a file of the kind that its suffix says."""
+    with replaced_file(path) as out:
+        figure.savefig(out, format=path.suffix[1:].lower())
+
+
+def map_figure(result: AnyMap, title: str = "", upright: Upright = Upright.NONE) -> Figure:
+    """The surface, `upright` as charts are, its map, and the angle error on the map; spheres in matching colours."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(15, 5.4), dpi=130, layout="constrained")
-    left, middle, right = figure.subplots(1, 3)
-    charts = [chart for chart in result.charts if chart.map is not None]
-    corners = np.concatenate([chart.mesh.V[chart.F] for chart in charts])
-    image = np.concatenate([result.uv[chart.corner] for chart in charts])
-    count = len(corners)
-    flat, depth, shade = _view(corners, upright)
-    far_first = np.argsort(depth)
-    _add_faces(left, flat[far_first], shade[far_first])
-    left.set_title(f"{title}: {count} triangles")
-    edges = {"edgecolors": "0.25", "linewidths": 0.3 if count > 2000 else 0.6} if count <= DETAILED else {}
-    _add_faces(middle, image, shade, **edges)
-    middle.set_title(_caption(charts))
-    _draw_faces_by_error(figure, right, _joined(charts), image, np.arange(float(count)))
-    for axes in (left, middle, right):
+    if isinstance(result, SphereMap):
+        _draw_sphere(figure, result, title)
+    elif isinstance(result, Unwrapped):
+        charts = [chart for chart in result.charts if chart.map is not None]
+        corners = np.concatenate([chart.mesh.V[chart.F] for chart in charts])
+        image = np.concatenate([result.uv[chart.corner] for chart in charts])
+        _draw_plane(figure, corners, image, _joined(charts), upright, (title, _caption(charts)))
+    else:
+        mapped = mapped_mesh(result)
+        titles = title, _map_caption(result)
+        _draw_plane(figure, mapped.V[mapped.F], mapped.image[mapped.F], mapped.distortion, upright, titles)
+    for axes in figure.axes[:3]:
         axes.set_aspect("equal")
         axes.set_axis_off()
         axes.autoscale_view()
-    with replaced_file(path) as out:
-        figure.savefig(out, format=path.suffix[1:].lower())
+    return figure
 
 
-def draw_sphere_map(path: Path, result: SphereMap, title: str) -> None:
-    """Draw a closed surface and its sphere from two sides in the same colours, and the angle error on the sphere."""
-    from matplotlib.figure import Figure
+def _draw_plane(
+    figure: Figure,
+    corners: NDArray[np.float64],
+    image: NDArray[np.float64],
+    measured: Distortion,
+    upright: Upright,
+    titles: tuple[str, str],
+) -> None:
+    """Triangles on the surface (m, 3, 3) and in the plane (m, 3, 2)."""
+    left, middle, right = figure.subplots(1, 3)
+    count = len(corners)
+    flat, depth, shade = seen_triangles(corners, upright)
+    far_first = np.argsort(depth)
+    _add_faces(left, flat[far_first], shade[far_first])
+    left.set_title(": ".join(filter(None, (titles[0], f"{count} triangles"))))
+    edges = {"edgecolors": "0.25", "linewidths": 0.3 if count > 2000 else 0.6} if count <= DETAILED else {}
+    _add_faces(middle, image, shade, **edges)
+    middle.set_title(titles[1])
+    _draw_faces_by_error(figure, right, measured, image, np.arange(float(count)))
 
-    figure = Figure(figsize=(15, 5.4), dpi=130, layout="constrained")
+
+def _draw_sphere(figure: Figure, result: SphereMap, title: str) -> None:
+    """A closed surface and its sphere in the same colours, and the angle error on the sphere."""
     axes = figure.subplots(1, 3)
-    F, xyz = result.surface.F, result.xyz
+    mapped = mapped_mesh(result)
+    F, xyz = mapped.F, mapped.image
     middle = xyz[F].mean(axis=1)
     hue = 0.5 + 0.45 * middle / np.linalg.norm(middle, axis=1, keepdims=True)
     hue = np.column_stack((hue, np.ones(len(F))))
-    for place, positions in ((axes[0], result.surface.V), (axes[1], xyz)):
-        flat, depth, shade = _view(positions[F])
+    for place, positions in ((axes[0], mapped.V), (axes[1], xyz)):
+        flat, depth, shade = seen_triangles(positions[F])
         far_first = np.argsort(depth)
         _add_faces(place, flat[far_first], (hue * np.sqrt(shade))[far_first])
-    axes[0].set_title(f"{title}: {len(xyz)} vertices")
+    axes[0].set_title(": ".join(filter(None, (title, f"{len(xyz)} vertices"))))
     axes[1].set_title(f"{result.method} map, conformal energy {result.conformal_energy:.3g}")
-    flat, depth, _ = _view(xyz[F])
-    _draw_faces_by_error(figure, axes[2], result.distortion, flat, depth)
-    for place in axes:
-        place.set_aspect("equal")
-        place.set_axis_off()
-        place.autoscale_view()
-    with replaced_file(path) as out:
-        figure.savefig(out, format=path.suffix[1:].lower())
+    flat, depth, _ = seen_triangles(xyz[F])
+    _draw_faces_by_error(figure, axes[2], mapped.distortion, flat, depth)
 
 
 def _draw_faces_by_error(
@@ -117,27 +140,15 @@ def _draw_faces_by_error(
 
 def _caption(charts: list[Chart]) -> str:
     first = charts[0].map
-    if len(charts) == 1 and first is not None:
-        told = f"{shape_name(first)} map, conformal energy {first.conformal_energy:.3g}"
-        if isinstance(first, RectangleMap):
-            return f"{told}, modulus {first.modulus:.4g}"
-        crosses = isinstance(first, FreeMap) and len(first.crossings)
-        return f"{told}, boundary crosses itself" if crosses else told
-    return f"{len(charts)} charts"
+    return _map_caption(first) if len(charts) == 1 and first is not None else f"{len(charts)} charts"
 
 
-def _view(
-    corners: NDArray[np.float64], upright: Upright = Upright.NONE
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Triangles (m, 3, 3) seen along their mean normal: in the picture (m, 3, 2), depth (m,), colour (m, 4)."""
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    axes = first_view(cross, upright)
-    turned = corners @ axes.T
-    length = np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), np.finfo(float).tiny)
-    facing = (cross / length) @ axes.T @ (LIGHT / np.linalg.norm(LIGHT))
-    light = 0.97 * (0.5 + 0.5 * facing) ** 1.5
-    colour = np.column_stack((light, 0.97 * light, 0.92 * light, np.ones(len(corners))))
-    return turned[:, :, :2], turned[:, :, 2].mean(axis=1), colour
+def _map_caption(result: DiskMap | FreeMap | RectangleMap) -> str:
+    told = f"{shape_name(result)} map, conformal energy {result.conformal_energy:.3g}"
+    if isinstance(result, RectangleMap):
+        return f"{told}, modulus {result.modulus:.4g}"
+    crosses = isinstance(result, FreeMap) and len(result.crossings)
+    return f"{told}, boundary crosses itself" if crosses else told
 
 
 def _joined(charts: list[Chart]) -> Distortion:

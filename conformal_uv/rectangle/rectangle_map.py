@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from numpy.typing import ArrayLike
 
+from ..mesh.mesh_objects import MeshObject
 from ..operators.factorized_disk import FactorizedDisk
 from ..options import CornerChoice, RectangleOptions, Repair
 from ..progress import Callback, Progress
@@ -16,8 +17,8 @@ __all__ = ["rectangle_map"]
 
 
 def rectangle_map(
-    V: ArrayLike,
-    F: ArrayLike,
+    V: ArrayLike | MeshObject,
+    F: ArrayLike | None = None,
     corners: Sequence[int] | None = None,
     *,
     corner_choice: str = "turning",
@@ -35,7 +36,7 @@ def rectangle_map(
     Parameters
     ----------
     V : (n, 3) floats
-        Vertex positions, any units.
+        Vertex positions, any units; or, without F, a mesh: (V, F), or one of trimesh, pyvista, meshio or open3d.
     F : (m, 3) integers
         Triangles, 0-based, consistently wound: one connected surface with one boundary loop and no handles.
     corners : four vertex indices, optional

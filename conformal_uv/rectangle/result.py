@@ -8,16 +8,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..concise import Concise
 from ..disk.repair import Repair
 from ..mesh.surface import Surface
 from ..operators.distortion import Distortion, distortion_of
 from ..operators.plane_map import PlaneMap
+from ..shown import Shown
 
 __all__ = ["RectangleMap"]
 
 
-@dataclass(frozen=True, eq=False)
-class RectangleMap(PlaneMap):
+@dataclass(frozen=True, eq=False, repr=False)
+class RectangleMap(PlaneMap, Shown, Concise):
     """A map of a surface to the rectangle [0, w] x [0, 1].
 
     Attributes

@@ -8,16 +8,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..concise import Concise
 from ..mesh.surface import Surface
 from ..operators.areas import lumped_areas
 from ..operators.distortion import Distortion, distortion_of
 from ..optimize import AugmentedLagrangianStep, NewtonStep
+from ..shown import Shown
 
 __all__ = ["SphereMap"]
 
 
-@dataclass(frozen=True, eq=False)
-class SphereMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class SphereMap(Shown, Concise):
     """A map of a closed surface to the unit sphere.
 
     Attributes

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import DisconnectedError, OptionError, TopologyError
 from ..linear.backends import choose_backend
 from ..mesh.geometry import triangle_geometry
+from ..mesh.mesh_objects import MeshObject, triangles_of
 from ..mesh.surface import Surface
 from ..operators.orientation_sign import inverted_faces, outward_signs
 from ..optimize import Status
@@ -28,8 +29,8 @@ log = logging.getLogger(__name__)
 
 
 def sphere_map(
-    V: ArrayLike,
-    F: ArrayLike,
+    V: ArrayLike | MeshObject,
+    F: ArrayLike | None = None,
     *,
     method: str = "auto",
     normalization: str = "area",
@@ -48,6 +49,7 @@ def sphere_map(
     Parameters
     ----------
     V : (n, 3) floats
+        Vertex positions; or, without F, a mesh: (V, F), or one of trimesh, pyvista, meshio or open3d.
     F : (m, 3) integers
         Triangles of one closed surface of genus 0, wound anticlockwise seen from outside.
     method : {"auto", "linear", "schwarz", "newton", "augmented-lagrangian"}
@@ -109,7 +111,7 @@ def sphere_map(
     choose_backend(backend)  # complains of what is not there before any work
     progress = Progress(callback)
     progress("checks", 0.0)
-    surface = Surface.from_arrays(V, F)
+    surface = Surface.from_arrays(*triangles_of(V, F))
     n, m = surface.n, surface.m
     if options.boundary is SphereBoundary.CAP and surface.loops:
         surface = surface.capped()
