@@ -62,7 +62,7 @@ def test_cvxopt_is_asked_for_where_there_are_wheels(system: str, machine: str, p
 @pytest.mark.skipif(int(version("setuptools").split(".")[0]) < 77, reason="the build needs setuptools 77")
 def test_the_wheel_holds_the_library_and_the_filter_alone(tmp_path: Path) -> None:
     source = tmp_path / "source"
-    kept = shutil.ignore_patterns(".*", "build", "*.egg-info", "__pycache__")
+    kept = shutil.ignore_patterns(".*", "build", "*.egg-info", "__pycache__", "node_modules")
     shutil.copytree(ROOT, source, ignore=kept)
     command = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "-w", str(tmp_path)]
     subprocess.run([*command, str(source)], check=True, capture_output=True)
@@ -70,3 +70,5 @@ def test_the_wheel_holds_the_library_and_the_filter_alone(tmp_path: Path) -> Non
     names = zipfile.ZipFile(wheel).namelist()
     assert {name.partition("/")[0] for name in names if ".dist-info" not in name} == {"conformal_uv", "meshlab_filter"}
     assert {"conformal_uv/py.typed", "meshlab_filter/py.typed"} <= set(names)
+    assert {f"conformal_uv/page/assets/page.{kind}" for kind in ("html", "css", "js")} <= set(names)
+    assert not any("node_modules" in name for name in names)
