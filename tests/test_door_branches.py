@@ -73,7 +73,7 @@ def test_all_outputs_that_failed_are_told(tmp_path: Path) -> None:
         pytest.raises(cuv.ConformalUVError, match=r"^a\.obj: no room; b\.png: no room$"),
         stages.Stages(quiet=True) as s,
     ):
-        outputs.write(s, {"a": 1}, failing, failing, failing)
+        outputs.write(s, {"a": 1}, failing, failing)
     assert json.loads((tmp_path / "c.json").read_text()) == {"a": 1}
 
 

@@ -288,6 +288,20 @@ def test_the_spheres_drag_keeps_it_a_sphere_and_brings_along_what_is_held(browse
         assert abs(x - size["width"] / 2 - 70) < 3 and abs(y - size["height"] / 2 + 50) < 3
 
 
+def test_the_graphics_card_moves_the_sphere_the_same_way(browser, ball) -> None:
+    """Under a vertex on the near side of the moved sphere, the surface is where that vertex is."""
+    path, _ = ball
+    with Shown(browser, path) as shown:
+        shown.ask("conformalUV.setCenter([0.3, -0.25, 0.2])")
+        moved = shown.positions()
+        surface = np.array(shown.ask("Array.from(conformalUV.surface())")).reshape(-1, 3)
+        near = np.flatnonzero(moved[:, 1] < -0.7)[::20]  # it is seen from -y
+        assert len(near) > 3
+        for vertex in near:
+            there = shown.hover("map", shown.pixel("map", moved[vertex]))
+            assert np.linalg.norm(np.subtract(there["surface"], surface[vertex])) < 0.03
+
+
 def test_a_sphere_can_be_turned_instead(browser, ball) -> None:
     path, _ = ball
     with Shown(browser, path) as shown:

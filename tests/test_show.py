@@ -258,6 +258,29 @@ def test_view_draws_the_surface_beside_its_map(kind: str, tmp_path: Path) -> Non
     assert not drawn[:5].any() and not drawn[-5:].any() and not columns[:5].any() and not columns[-5:].any()
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="drawing without a screen is EGL's")
+def test_to_polyscope_registers_surface_and_map() -> None:
+    pytest.importorskip("polyscope")
+    code = """
+import sys
+import polyscope
+import conformal_uv as cuv
+from conformal_uv.samples import mask
+polyscope.set_allow_headless_backends(True)
+try:
+    polyscope.init("openGL3_egl")
+except RuntimeError:
+    sys.exit("can not draw without a screen")
+surface, flat = cuv.disk_map(*mask(300)).to_polyscope("mask")
+assert polyscope.has_surface_mesh("mask") and polyscope.has_surface_mesh("mask, map")
+assert surface.n_vertices() == flat.n_vertices() == 300
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    if "can not draw without a screen" in done.stderr:
+        pytest.skip("polyscope has no EGL here")
+    assert done.returncode == 0, done.stderr
+
+
 def test_view_refuses_before_it_reads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("polyscope")
     runner = CliRunner()

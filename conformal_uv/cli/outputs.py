@@ -64,7 +64,7 @@ class Outputs:
         summary: dict[str, Any],
         write_mesh: Callable[[Path], None],
         draw: Callable[[Path], None],
-        write_page: Callable[[Path], None],
+        write_page: Callable[[Path], None] | None = None,
     ) -> None:
         """Write what is asked for; one that fails does not keep the others from their files.
 
@@ -77,7 +77,7 @@ class Outputs:
         wanted.append(("numbers", self.json, lambda _: self.write_numbers(summary)))
         failures: list[ConformalUVError | OSError] = []
         for stage, path, writer in wanted:
-            if path is None:
+            if path is None or writer is None:
                 continue
             stages(stage, 0.0)
             try:
