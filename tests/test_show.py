@@ -24,6 +24,7 @@ from conformal_uv.pictures.thumbnail import DARK, LIGHT, thumbnail
 from conformal_uv.samples import mask, spherical_cap
 from conformal_uv.show.libraries import library
 
+ROOT = Path(__file__).resolve().parent.parent
 V, F = mask(400)
 BALL = icosphere(2)
 RESULTS = {
@@ -229,12 +230,13 @@ assert not {"matplotlib", "trimesh", "pyvista", "polyscope"} & set(sys.modules)
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def view(*arguments: str) -> subprocess.CompletedProcess:
+def view(folder: Path, *arguments: str) -> subprocess.CompletedProcess:
     """In a process of its own, for polyscope begins once; without a screen."""
     pytest.importorskip("polyscope")
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     command = [sys.executable, "-m", "conformal_uv", "view", *arguments]
-    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+    environment["PYTHONPATH"] = str(ROOT)
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120)
 
 
 def seen(done: subprocess.CompletedProcess, path: Path) -> np.ndarray:
@@ -249,9 +251,10 @@ def seen(done: subprocess.CompletedProcess, path: Path) -> np.ndarray:
 def test_view_draws_the_surface_beside_its_map(kind: str, tmp_path: Path) -> None:
     surface = BALL if kind == "sphere" else spherical_cap(800)
     np.savez(tmp_path / "a.npz", V=surface[0], F=surface[1])
-    done = view(str(tmp_path / "a.npz"), "--screenshot", str(tmp_path / "a.png"), "--shape", kind, "-q")
+    done = view(tmp_path, "a.npz", "--screenshot", "a.png", "--shape", kind, "-q")
     pixels = seen(done, tmp_path / "a.png")
     assert pixels.shape[:2] == (900, 1600) and done.stdout == ""
+    assert {path.name for path in tmp_path.iterdir()} == {"a.npz", "a.png"}
     drawn = np.abs(pixels[:, :, :3] - pixels[0, 0, :3]).max(axis=-1) > 20
     columns = drawn.any(axis=0)
     assert 0.2 < columns[:800].mean() < 0.95 and 0.2 < columns[800:].mean() < 0.95
@@ -259,7 +262,7 @@ def test_view_draws_the_surface_beside_its_map(kind: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="drawing without a screen is EGL's")
-def test_to_polyscope_registers_surface_and_map() -> None:
+def test_to_polyscope_registers_surface_and_map(tmp_path: Path) -> None:
     pytest.importorskip("polyscope")
     code = """
 import sys
@@ -275,7 +278,14 @@ surface, flat = cuv.disk_map(*mask(300)).to_polyscope("mask")
 assert polyscope.has_surface_mesh("mask") and polyscope.has_surface_mesh("mask, map")
 assert surface.n_vertices() == flat.n_vertices() == 300
 """
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
     if "can not draw without a screen" in done.stderr:
         pytest.skip("polyscope has no EGL here")
     assert done.returncode == 0, done.stderr

@@ -27,7 +27,7 @@ def show_in_window(polyscope: Any, mapped: MappedMesh, name: str, upright: Uprig
     ConformalUVError
         There is no screen.
     """
-    polyscope.set_verbosity(0)
+    _quiet(polyscope)
     try:
         polyscope.init()
     except RuntimeError as error:
@@ -46,7 +46,7 @@ def window_picture(polyscope: Any, mapped: MappedMesh, name: str, upright: Uprig
     ConformalUVError
         polyscope can not draw here.
     """
-    polyscope.set_verbosity(0)
+    _quiet(polyscope)
     polyscope.set_allow_headless_backends(True)
     try:
         polyscope.init(WINDOWLESS if sys.platform == "linux" else "auto")
@@ -57,3 +57,9 @@ def window_picture(polyscope: Any, mapped: MappedMesh, name: str, upright: Uprig
     polyscope.set_window_size(*SIZE)
     polyscope_scene(polyscope, mapped, name, upright)
     return np.ascontiguousarray(polyscope.screenshot_to_buffer(transparent_bg=False))
+
+
+def _quiet(polyscope: Any) -> None:
+    """Say nothing, and leave no files about windows where the command was called."""
+    polyscope.set_verbosity(0)
+    polyscope.set_use_prefs_file(False)
