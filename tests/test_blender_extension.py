@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import py_compile
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -87,13 +88,17 @@ def test_zip(extension, tmp_path):
 
 
 def test_install_and_use(extension, packages, tmp_path):
+    """Beside another conformal_uv, which is left alone, and without any."""
     script = str(blender_process.FOLDER / "installed_extension.py")
-    for task in (("install", str(extension)), ("use", str(tmp_path))):
+    for task in (("install", str(extension)), ("use", str(tmp_path)), ("use", str(tmp_path))):
         done = blender_process.run_python(
             "-S", script, str(packages), *task, BLENDER_USER_RESOURCES=str(tmp_path), PYTHONPATH=""
         )
         assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
-    assert "error" in done.stdout
+        if task[0] == "use":
+            assert "error" in done.stdout
+            shutil.rmtree(packages / "conformal_uv", ignore_errors=True)
+    assert not (packages / "conformal_uv").exists()
 
 
 def test_the_zip_without_wheels_is_valid_and_reproducible(tmp_path):
