@@ -81,8 +81,8 @@ def minimise_boundary_energy(
     asked, part = tolerance, SHORT_PART if len(theta) <= SHORT else 1.0
     tolerance = max(part * asked, rounding)
     first, status = None, Status.CONVERGED
-    inverse = preconditioner(problem)
     while True:  # every round makes a step or a link, and links are no more than vertices
+        inverse = preconditioner(problem, energy.theta)
         tangent = Tangent(gauge, energy.theta, links, inverse)
         norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         if norm <= tolerance:
