@@ -13,11 +13,15 @@ from ._version import __version__
 if TYPE_CHECKING:
     from .charts import (
         Chart,
+        DiskIsland,
         Placement,
         Unwrapped,
         Unwrapper,
+        UVIslands,
+        disk_islands,
         pack_together,
         unwrap,
+        uv_islands,
     )
     from .disk import DiskMap, DiskMapper, disk_map
     from .disk.repair import Repair
@@ -68,6 +72,7 @@ __all__ = [
     "ConformalUVError",
     "DegenerateFaceError",
     "DisconnectedError",
+    "DiskIsland",
     "DiskMap",
     "DiskMapper",
     "Distortion",
@@ -93,6 +98,7 @@ __all__ = [
     "SphereMap",
     "Surface",
     "TopologyError",
+    "UVIslands",
     "UnreferencedVertexError",
     "UnwrapNumbers",
     "Unwrapped",
@@ -100,6 +106,7 @@ __all__ = [
     "__version__",
     "cotangent_laplacian",
     "cotangent_laplacian_intrinsic",
+    "disk_islands",
     "disk_map",
     "distortion",
     "distortion_numbers",
@@ -117,6 +124,7 @@ __all__ = [
     "uniform_laplacian",
     "unwrap",
     "unwrap_numbers",
+    "uv_islands",
 ]
 
 _HOME = {
@@ -127,6 +135,7 @@ _HOME = {
     "ConformalUVError": "errors",
     "DegenerateFaceError": "errors",
     "DisconnectedError": "errors",
+    "DiskIsland": "charts",
     "DiskMap": "disk",
     "DiskMapper": "disk",
     "Distortion": "operators",
@@ -152,12 +161,14 @@ _HOME = {
     "SphereMap": "sphere",
     "Surface": "mesh",
     "TopologyError": "errors",
+    "UVIslands": "charts",
     "UnreferencedVertexError": "errors",
     "UnwrapNumbers": "report",
     "Unwrapped": "charts",
     "Unwrapper": "charts",
     "cotangent_laplacian": "operators",
     "cotangent_laplacian_intrinsic": "operators",
+    "disk_islands": "charts",
     "disk_map": "disk",
     "distortion": "operators",
     "distortion_numbers": "report",
@@ -175,6 +186,7 @@ _HOME = {
     "uniform_laplacian": "operators",
     "unwrap": "charts",
     "unwrap_numbers": "report",
+    "uv_islands": "charts",
 }
 
 

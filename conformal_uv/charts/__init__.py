@@ -2,10 +2,24 @@
 
 from .chart import Chart
 from .chart_list import ChartList
+from .disk_islands import DiskIsland, disk_islands
 from .packing import Placement
 from .together import pack_together
 from .unwrap import unwrap
 from .unwrapped import Unwrapped
 from .unwrapper import Unwrapper
+from .uv_islands import UVIslands, uv_islands
 
-__all__ = ["Chart", "ChartList", "Placement", "Unwrapped", "Unwrapper", "pack_together", "unwrap"]
+__all__ = [
+    "Chart",
+    "ChartList",
+    "DiskIsland",
+    "Placement",
+    "UVIslands",
+    "Unwrapped",
+    "Unwrapper",
+    "disk_islands",
+    "pack_together",
+    "unwrap",
+    "uv_islands",
+]
