@@ -43,7 +43,7 @@ if TYPE_CHECKING:
         TopologyError,
         UnreferencedVertexError,
     )
-    from .free import FreeMap, free_map
+    from .free import FreeMap, PinnedMapper, free_map, pinned_map
     from .mesh import PolygonMesh, Surface
     from .mesh.triangulate import triangulate
     from .operators import (
@@ -88,6 +88,7 @@ __all__ = [
     "NonManifoldError",
     "OptionError",
     "OrientationError",
+    "PinnedMapper",
     "Placement",
     "PolygonMesh",
     "RectangleMap",
@@ -118,6 +119,7 @@ __all__ = [
     "mixed_voronoi_areas",
     "octahedral",
     "pack_together",
+    "pinned_map",
     "rectangle_map",
     "sphere_map",
     "triangulate",
@@ -151,6 +153,7 @@ _HOME = {
     "NonManifoldError": "errors",
     "OptionError": "errors",
     "OrientationError": "errors",
+    "PinnedMapper": "free",
     "Placement": "charts",
     "PolygonMesh": "mesh",
     "RectangleMap": "rectangle",
@@ -180,6 +183,7 @@ _HOME = {
     "mixed_voronoi_areas": "operators",
     "octahedral": "sphere",
     "pack_together": "charts",
+    "pinned_map": "free",
     "rectangle_map": "rectangle",
     "sphere_map": "sphere",
     "triangulate": "mesh.triangulate",
