@@ -177,8 +177,8 @@ def pinned_map(
     --------
     >>> import conformal_uv as cuv
     >>> square = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]], [[0, 1, 2], [0, 2, 3]]
-    >>> cuv.pinned_map(*square, {0: [1, 1], 1: [1, 2]}).uv.round(12).tolist()
-    [[1.0, 1.0], [1.0, 2.0], [0.0, 2.0], [0.0, 1.0]]
+    >>> cuv.pinned_map(*square, {0: [3, 3], 1: [3, 4]}).uv.round(12).tolist()
+    [[3.0, 3.0], [3.0, 4.0], [2.0, 4.0], [2.0, 3.0]]
     """
     mapper = PinnedMapper(V, F, list(pins), laplacian=laplacian, backend=backend, callback=callback)
     return mapper.map(np.array([np.asarray(place, dtype=np.float64) for place in pins.values()]))

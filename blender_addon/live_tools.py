@@ -1,0 +1,65 @@
+"""The live tools in the UV editor: its UV menu, its toolbar, and key-map items that preferences may turn on."""
+
+from pathlib import Path
+
+import bpy
+
+from .slide_operator import UV_OT_conformal_slide
+
+ICONS = Path(__file__).parent / "icons"
+OPERATORS = (UV_OT_conformal_slide,)
+LEFT_PRESS = {"type": "LEFTMOUSE", "value": "PRESS"}
+
+_items = []
+
+
+class ConformalSlideTool(bpy.types.WorkSpaceTool):
+    bl_space_type = "IMAGE_EDITOR"
+    bl_context_mode = "UV"
+    bl_idname = "conformal_uv.slide"
+    bl_label = "Conformal Slide"
+    bl_description = "Drag what should go elsewhere in a disk; wheel turns it"
+    bl_icon = str(ICONS / "conformal_slide")
+    bl_keymap = ((UV_OT_conformal_slide.bl_idname, LEFT_PRESS, None),)
+
+
+TOOLS = (ConformalSlideTool,)
+
+
+def draw(self, context):
+    layout = self.layout
+    layout.separator()
+    layout.operator_context = "INVOKE_DEFAULT"
+    for operator in OPERATORS:
+        layout.operator(operator.bl_idname)
+
+
+def keymap_items():
+    """Pairs of key map and item, for preferences to show; they are off and without a key until the user gives one."""
+    return list(_items)
+
+
+def register():
+    for operator in OPERATORS:
+        bpy.utils.register_class(operator)
+    bpy.types.IMAGE_MT_uvs.append(draw)
+    for number, tool in enumerate(TOOLS):
+        bpy.utils.register_tool(tool, separator=number == 0)
+    configuration = bpy.context.window_manager.keyconfigs.addon
+    if configuration is not None:  # in background there is none
+        keymap = configuration.keymaps.new(name="UV Editor", space_type="EMPTY")
+        for operator in OPERATORS:
+            item = keymap.keymap_items.new(operator.bl_idname, "NONE", "PRESS")
+            item.active = False
+            _items.append((keymap, item))
+
+
+def unregister():
+    for keymap, item in _items:
+        keymap.keymap_items.remove(item)
+    _items.clear()
+    for tool in reversed(TOOLS):
+        bpy.utils.unregister_tool(tool)
+    bpy.types.IMAGE_MT_uvs.remove(draw)
+    for operator in reversed(OPERATORS):
+        bpy.utils.unregister_class(operator)
