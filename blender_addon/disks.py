@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv import DiskIsland, disk_islands, flipped_polygons
+from conformal_uv import DiskIsland, disk_islands
 
-from .uv_objects import UVObject, uv_objects
+from .uv_objects import UVObject, folds_told, uv_objects
 
 NONE_FOUND = (
     "no island of the active UV map is a disk: its boundary would lie on a circle. Unwrap with the shape Disk first"
@@ -84,11 +84,8 @@ def told(disks: list[Disk], values: dict[bpy.types.Object, NDArray[np.float32]])
     done = f"Slid {count} disk{'' if count == 1 else 's'}"
     folded = 0
     for ob, group in by_object(disks):
-        read = group[0].of
-        faces = np.concatenate([disk.island.faces for disk in group])
-        after = np.intersect1d(flipped_polygons(read.mesh, values[ob]), faces)
-        folded += len(np.setdiff1d(after, flipped_polygons(read.mesh, read.uv)))
-    return f"{done}; {folded} more face{' is' if folded == 1 else 's are'} flipped or collapsed now" if folded else done
+        folded += group[0].of.newly_folded(values[ob], np.concatenate([disk.island.faces for disk in group]))
+    return folds_told(done, folded)
 
 
 def limited(z: complex) -> complex:

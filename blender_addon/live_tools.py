@@ -1,13 +1,15 @@
 """The live tools in the UV editor: its UV menu, its toolbar, and key-map items that preferences may turn on."""
 
+import sys
 from pathlib import Path
 
 import bpy
 
+from .live_operator import UV_OT_conformal_live
 from .slide_operator import UV_OT_conformal_slide
 
 ICONS = Path(__file__).parent / "icons"
-OPERATORS = (UV_OT_conformal_slide,)
+OPERATORS = (UV_OT_conformal_slide, UV_OT_conformal_live)
 LEFT_PRESS = {"type": "LEFTMOUSE", "value": "PRESS"}
 
 _items = []
@@ -23,7 +25,17 @@ class ConformalSlideTool(bpy.types.WorkSpaceTool):
     bl_keymap = ((UV_OT_conformal_slide.bl_idname, LEFT_PRESS, None),)
 
 
-TOOLS = (ConformalSlideTool,)
+class ConformalLiveTool(bpy.types.WorkSpaceTool):
+    bl_space_type = "IMAGE_EDITOR"
+    bl_context_mode = "UV"
+    bl_idname = "conformal_uv.live"
+    bl_label = "Conformal Live Pins"
+    bl_description = "Drag a pinned UV, or a selected one on the boundary; the island follows"
+    bl_icon = str(ICONS / "conformal_live")
+    bl_keymap = ((UV_OT_conformal_live.bl_idname, LEFT_PRESS, None),)
+
+
+TOOLS = (ConformalSlideTool, ConformalLiveTool)
 
 
 def draw(self, context):
@@ -39,10 +51,19 @@ def keymap_items():
     return list(_items)
 
 
+@bpy.app.handlers.persistent
+def forget(*_):
+    """Another file: no factorization of the last one is kept."""
+    live_pins = sys.modules.get(f"{__package__}.live_pins")
+    if live_pins is not None:
+        live_pins.forget()
+
+
 def register():
     for operator in OPERATORS:
         bpy.utils.register_class(operator)
     bpy.types.IMAGE_MT_uvs.append(draw)
+    bpy.app.handlers.load_post.append(forget)
     for number, tool in enumerate(TOOLS):
         bpy.utils.register_tool(tool, separator=number == 0)
     configuration = bpy.context.window_manager.keyconfigs.addon
@@ -60,6 +81,7 @@ def unregister():
     _items.clear()
     for tool in reversed(TOOLS):
         bpy.utils.unregister_tool(tool)
+    bpy.app.handlers.load_post.remove(forget)
     bpy.types.IMAGE_MT_uvs.remove(draw)
     for operator in reversed(OPERATORS):
         bpy.utils.unregister_class(operator)

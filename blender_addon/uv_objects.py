@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from conformal_uv import PolygonMesh
+from conformal_uv import PolygonMesh, flipped_polygons
 
 from .edit_mode import settled_mesh
 from .mesh_io import read_corner_flags, read_mesh, read_selected_vertices, read_uv, selected_uvs
@@ -42,6 +42,16 @@ class UVObject:
     def corner_face(self) -> NDArray[np.int64]:
         """The face of every corner, (k,)."""
         return np.repeat(np.arange(len(self.mesh.starts) - 1), self.mesh.sizes)
+
+    def newly_folded(self, values: NDArray[np.float32], faces: NDArray[np.int64]) -> int:
+        """How many of some faces are flipped or collapsed with UVs (k, 2) of the corners, and were not."""
+        after = np.intersect1d(flipped_polygons(self.mesh, values), faces)
+        return len(np.setdiff1d(after, flipped_polygons(self.mesh, self.uv))) if len(after) else 0
+
+
+def folds_told(done: str, folded: int) -> str:
+    """A message, with the faces that folded if there are any."""
+    return f"{done}; {folded} more face{' is' if folded == 1 else 's are'} flipped or collapsed now" if folded else done
 
 
 def uv_objects(context: bpy.types.Context, objects: Iterable[bpy.types.Object]) -> list[UVObject]:

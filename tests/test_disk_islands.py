@@ -143,6 +143,28 @@ def test_a_side_with_two_uvs_parts_islands():
     assert cuv.uv_islands(mesh, uv, [False, False]).count == 0
 
 
+@pytest.mark.parametrize("mirrored", [1.0, -1.0])
+def test_an_island_as_a_surface_of_its_own(disk, mirrored):
+    V, F, m = disk
+    two = np.concatenate((F, F + len(V)))
+    uv = np.concatenate((m.uv * [mirrored, 1.0], 0.5 * m.uv + 3.0))
+    mesh, corner_uv = stored(np.concatenate((V, V)), two, uv, scale=(0.5, 0.25))
+    islands = cuv.uv_islands(mesh, corner_uv)
+    surface = cuv.island_surface(mesh, islands, islands.island[0], scale=(0.5, 0.25))
+    np.testing.assert_array_equal(surface.corners, np.arange(F.size))
+    np.testing.assert_array_equal(surface.V[surface.point], V[F.reshape(-1)])
+    np.testing.assert_allclose(surface.uv[surface.point], uv[F.reshape(-1)] + [1.0, 2.0], atol=1e-6)
+    turned = surface.F if mirrored > 0 else surface.F[:, ::-1]
+    np.testing.assert_array_equal(surface.V[turned], V[F])
+    assert surface.rim.sum() == len(m.boundary)
+    np.testing.assert_array_equal(islands.point[surface.corners], surface.numbers[surface.point])
+    far = surface.uv[surface.farthest(0)]
+    rim = surface.uv[surface.rim]
+    assert np.hypot(*(far - surface.uv[0])) == np.hypot(*(rim - surface.uv[0]).T).max()
+    with pytest.raises(cuv.OptionError, match="no island 2"):
+        cuv.island_surface(mesh, islands, 2)
+
+
 def test_arrays_that_do_not_fit():
     mesh = cuv.PolygonMesh(np.eye(3), np.array([0, 1, 2]), np.array([0, 3]))
     with pytest.raises(cuv.OptionError, match="3 corners"):

@@ -23,6 +23,7 @@ RESULTS = {
     "DiskIsland",
     "DiskMap",
     "FreeMap",
+    "IslandSurface",
     "NewtonStep",
     "RectangleMap",
     "Repair",

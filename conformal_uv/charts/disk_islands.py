@@ -31,6 +31,8 @@ class DiskIsland:
 
     Attributes
     ----------
+    number : int
+        As `uv_islands` numbers it.
     place : RoundPlace
         Circle or ellipse.
     faces : (f,) int64
@@ -49,6 +51,7 @@ class DiskIsland:
         Edges of the faces, pairs of z, each at least once.
     """
 
+    number: int
     place: RoundPlace
     faces: Ints
     corners: Ints
@@ -141,6 +144,7 @@ def _island(found: UVIslands, number: int, corners: Ints, follow: Ints, rim: Int
     local = np.empty(len(found.vertex), dtype=np.int64)
     local[points] = np.arange(len(points))
     return DiskIsland(
+        number=number,
         place=place,
         faces=np.flatnonzero(found.island == number),
         corners=corners,

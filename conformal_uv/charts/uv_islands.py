@@ -35,8 +35,10 @@ class UVIslands:
         The island of each face, numbered from 0; -1 for faces that were not asked for.
     rim : (t,) bool
         UV vertices on the boundary of their island.
+    sides : (s, 2) int64
+        Sides of the islands' faces, from UV vertex to UV vertex.
     rim_sides : (b, 2) int64
-        Sides of the boundary, from UV vertex to UV vertex.
+        Those on the boundary.
     """
 
     point: Ints
@@ -44,6 +46,7 @@ class UVIslands:
     uv: NDArray[np.float64]
     island: Ints
     rim: NDArray[np.bool_]
+    sides: Ints
     rim_sides: Ints
 
     @property
@@ -93,21 +96,28 @@ def uv_islands(mesh: PolygonMesh, corner_uv: ArrayLike, faces: ArrayLike | None 
     t = len(first)
     island = np.full(p, -1, dtype=np.int64)
     used = np.repeat(chosen, mesh.sizes)
-    sides = np.flatnonzero(used)
+    corners = np.flatnonzero(used)
+    sides = np.column_stack((point[corners], point[following_corners(mesh)[corners]]))
     rim, rim_sides = np.zeros(t, dtype=bool), np.empty((0, 2), dtype=np.int64)
-    if len(sides):
-        tail, head = point[sides], point[following_corners(mesh)[sides]]
-        twin = paired_sides(tail, head.copy(), t).twin
+    if len(corners):
+        twin = paired_sides(sides[:, 0], sides[:, 1].copy(), t).twin
         one, other = joined_pairs(twin)
         number = np.cumsum(chosen) - 1
-        face = number[np.repeat(np.arange(p), mesh.sizes)[sides]]
+        face = number[np.repeat(np.arange(p), mesh.sizes)[corners]]
         count = int(chosen.sum())
         joined = csr_array((np.ones(len(one), dtype=bool), (face[one], face[other])), shape=(count, count))
         island[chosen] = connected_components(joined, directed=False)[1]
-        open_sides = twin < 0
-        rim_sides = np.column_stack((tail[open_sides], head[open_sides]))
+        rim_sides = sides[twin < 0]
         rim[rim_sides] = True
-    return UVIslands(point, mesh.corners[first].astype(np.int64), uv[first].astype(np.float64), island, rim, rim_sides)
+    return UVIslands(
+        point=point,
+        vertex=mesh.corners[first].astype(np.int64),
+        uv=uv[first].astype(np.float64),
+        island=island,
+        rim=rim,
+        sides=sides,
+        rim_sides=rim_sides,
+    )
 
 
 def _welded(corners: NDArray[np.integer], uv: NDArray[np.floating]) -> tuple[Ints, Ints]:

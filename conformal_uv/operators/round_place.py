@@ -31,7 +31,9 @@ class RoundPlace:
 
     def to_disk(self, points: Points) -> NDArray[np.complex128]:
         """Points (k, 2) as complex numbers (k,) of the unit disk."""
-        return np.ascontiguousarray((np.asarray(points, dtype=np.float64) - self.center) / self.radii).view(np.complex128)[..., 0]
+        return np.ascontiguousarray((np.asarray(points, dtype=np.float64) - self.center) / self.radii).view(
+            np.complex128
+        )[..., 0]
 
     def from_disk(self, z: NDArray[np.complex128]) -> Points:
         """Complex numbers (k,) of the unit disk as points (k, 2)."""
