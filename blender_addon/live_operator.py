@@ -208,10 +208,11 @@ class UV_OT_conformal_live(bpy.types.Operator):
 
     def _show(self, context):
         """Draw the present state."""
-        import numpy as np
+        from .uv_overlay import PINNED, SELECTED
 
         self._overlay.edges = [(owner.uv, pairs) for owner, pairs in zip(self._owners, self._pairs, strict=True)]
-        self._overlay.points = np.concatenate([owner.uv[owner.handles] for owner in self._owners])
+        self._overlay.points = [(owner.uv[owner.handles], SELECTED) for owner in self._owners]
+        self._overlay.points += [(owner.uv[owner.pinned], PINNED) for owner in self._owners]
         text = ""
         if self._drag is not None:
             shape = {"disk": "Disk, three pins", "free": f"Free, {self._drag.pins} pins"}[self._drag.kind]

@@ -179,6 +179,7 @@ class UV_OT_conformal_slide(bpy.types.Operator):
     def _show(self, context):
         """Write and draw the present state."""
         from .disks import by_object, in_uv
+        from .uv_overlay import CENTER
 
         moebius = self._slide.moebius
         placed = {disk: disk.island.placed(moebius) for disk in self._chosen}
@@ -188,7 +189,7 @@ class UV_OT_conformal_slide(bpy.types.Operator):
             self._live.show(ob)
         self._overlay.edges = list(zip(placed.values(), self._pairs, strict=True))
         middle = complex(self._slide.center)
-        self._overlay.points = [in_uv(disk, middle) for disk in self._chosen]
+        self._overlay.points = [([in_uv(disk, middle) for disk in self._chosen], CENTER)]
         shown, center = self._typed.shown, self._slide.center
         text = (
             f"Rotation {shown('rotation', math.degrees(self._slide.rotation), 1)}°   "

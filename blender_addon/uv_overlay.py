@@ -9,8 +9,8 @@ from gpu_extras.batch import batch_for_shader
 from numpy.typing import NDArray
 
 FAR = 4096.0  # Blender rounds positions in a region to pixels: the scale is read off a long way
-EDGE, RIM, POINT = (0.85, 0.85, 0.85, 0.55), (1.0, 0.55, 0.1, 1.0), (1.0, 1.0, 1.0, 1.0)
-POINT_SIZE = 9.0
+EDGE, RIM = (0.85, 0.85, 0.85, 0.55), (1.0, 0.55, 0.1, 1.0)
+CENTER, PINNED, SELECTED = ((1.0, 1.0, 1.0, 1.0), 9.0), ((1.0, 0.25, 0.2, 1.0), 9.0), ((1.0, 1.0, 1.0, 1.0), 4.0)
 
 
 class UVOverlay:
@@ -18,14 +18,15 @@ class UVOverlay:
 
     Attributes
     ----------
-    edges : list of ((t, 2) float32, GPU index buffer)
-    points, rims : (k, 2) and list of (k, 2)
+    edges : list of ((t, 2) floats, GPU index buffer)
+    points : list of ((k, 2) floats, (color, size))
+    rims : list of (k, 2) floats
     """
 
     def __init__(self) -> None:
-        self.edges: list[tuple[NDArray[np.float32], gpu.types.GPUIndexBuf]] = []
-        self.points = np.zeros((0, 2), dtype=np.float32)
-        self.rims: list[NDArray[np.float32]] = []
+        self.edges: list[tuple[NDArray[np.floating], gpu.types.GPUIndexBuf]] = []
+        self.points: list[tuple[NDArray[np.floating], tuple[tuple[float, ...], float]]] = []
+        self.rims: list[NDArray[np.floating]] = []
         self._handle = bpy.types.SpaceImageEditor.draw_handler_add(self._draw, (), "WINDOW", "POST_PIXEL")
 
     def remove(self) -> None:
@@ -45,10 +46,11 @@ class UVOverlay:
                 _colored(shader, gpu.types.GPUBatch(type="LINES", buf=vertices, elem=pairs), EDGE)
             for rim in self.rims:
                 _colored(shader, batch_for_shader(shader, "LINE_STRIP", {"pos": _in_space(rim)}), RIM)
-            if len(self.points):
-                gpu.state.point_size_set(POINT_SIZE)
-                _colored(shader, batch_for_shader(shader, "POINTS", {"pos": _in_space(self.points)}), POINT)
-                gpu.state.point_size_set(1.0)
+            for points, (color, size) in self.points:
+                if len(points):
+                    gpu.state.point_size_set(size)
+                    _colored(shader, batch_for_shader(shader, "POINTS", {"pos": _in_space(points)}), color)
+            gpu.state.point_size_set(1.0)
         gpu.state.blend_set("NONE")
 
     @staticmethod

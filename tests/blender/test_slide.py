@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import importlib
 
 import bpy
 import numpy as np
@@ -136,11 +136,7 @@ def test_undo_and_redo_are_exact(disk):
 @pytest.mark.parametrize("mode", [scenes.leave, scenes.edit])
 @pytest.mark.parametrize("restored", [True, False])
 def test_live_uvs_put_everything_back(addon, disk, mode, restored):
-    live_uvs = sys.modules[f"{addon.__name__}.live_uvs"] if f"{addon.__name__}.live_uvs" in sys.modules else None
-    if live_uvs is None:
-        import importlib
-
-        live_uvs = importlib.import_module(f"{addon.__name__}.live_uvs")
+    live_uvs = importlib.import_module(f"{addon.__name__}.live_uvs")
     odd = scenes.uvs(disk)
     odd[3] = [np.nan, -0.0]
     disk.data.uv_layers.active.uv.foreach_set("vector", odd.reshape(-1))
@@ -160,3 +156,65 @@ def test_live_uvs_put_everything_back(addon, disk, mode, restored):
     scenes.leave()
     assert (scenes.shadowed(scenes.uvs(disk)) == before) == restored
     assert [polygon.select for polygon in disk.data.polygons] == select.tolist()
+
+
+@pytest.fixture
+def slide(addon):
+    return importlib.import_module(f"{addon.__name__}.slide").Slide()
+
+
+def test_what_is_dragged_follows_the_mouse(slide):
+    grip = 0.3 + 0.2j
+    lies_there = complex(slide.moebius.inverse()(grip))
+    slide.grip_at(grip)
+    for step in (0.1j, -0.5, 0.05 - 0.02j):
+        slide.drag(step)
+        grip += step
+        assert abs(complex(slide.moebius(lies_there)) - grip) < 1e-12
+    again = cuv.Moebius.of_disk(slide.center, slide.rotation)
+    assert abs(complex(again(lies_there)) - grip) < 1e-12  # what the redo panel makes of it
+
+
+def test_a_drag_does_not_depend_on_its_way(slide):
+    slide.grip_at(0.2)
+    for step in (0.5j, 3.0, -2.9, -0.4j):  # out of the disk and back
+        slide.drag(step)
+    assert abs(slide.center - complex(cuv.Moebius.disk_translation(0.2, 0.3 + 0.1j)(0.0))) < 1e-12
+
+
+def test_wheel_and_numbers_between_drags(slide):
+    slide.grip_at(0.0)
+    slide.drag(0.3)
+    slide.turn(4.0)
+    assert slide.center == pytest.approx(0.3) and slide.rotation == pytest.approx(4.0)
+    slide.drag(0.1j)
+    assert abs(slide.grip - (0.3 + 0.1j)) < 1e-12
+    assert slide.rotation == pytest.approx(4.0, abs=0.2)  # goes on counting beyond half a turn
+    slide.put("rotation", 30.0)
+    slide.put("x", 0.25)
+    slide.put("y", -0.5)
+    assert slide.center == 0.25 - 0.5j and slide.rotation == pytest.approx(np.pi / 6)
+    slide.put("x", 7.0)
+    assert abs(slide.center) < 1.0
+
+
+def test_typed_numbers(addon):
+    typed = importlib.import_module(f"{addon.__name__}.typed_numbers").TypedNumbers(("rotation", "x", "y"))
+    for key, character in (("ONE", "1"), ("TWO", "2"), ("PERIOD", "."), ("FIVE", "5"), ("MINUS", "-")):
+        assert typed.take(key, character)
+    assert typed.value == -12.5 and typed.shown("rotation", 0.0) == "[-12.5|]" and typed.shown("x", 0.5) == "0.500"
+    assert typed.take("MINUS", "-") and typed.take("BACK_SPACE", "") and typed.value == 12.0
+    assert typed.take("TAB", "") and typed.field == "x" and typed.value is None
+    assert typed.take("Y", "y") and typed.field == "y"
+    assert typed.take("COMMA", ",") and typed.value is None and typed.take("FOUR", "4") and typed.value == 0.4
+    assert typed.take("R", "r") and typed.field == "rotation"
+    assert not typed.take("Q", "q") and not typed.take("LEFTMOUSE", "")
+
+
+def test_menu_tools_and_keys_come_and_go(addon):
+    tools = importlib.import_module(f"{addon.__name__}.live_tools")
+    assert [operator.bl_idname for operator in tools.OPERATORS] == ["uv.conformal_slide", "uv.conformal_live"]
+    for tool in tools.TOOLS:
+        with open(f"{tool.bl_icon}.dat", "rb") as stored:
+            assert stored.read(4) == b"VCO\0"
+    assert all(not item.active for _, item in tools.keymap_items())
