@@ -190,6 +190,7 @@ class UV_OT_conformal_live(bpy.types.Operator):
             context.window.cursor_modal_restore()
         self._begun = [owner.read.ob.name, handle.corner, 0.0, 0.0]
         self._place, self._last = owner.uv[handle.point].copy(), None
+        self._show(context)
         return True
 
     def _move(self, context, event):

@@ -5,11 +5,11 @@ from __future__ import annotations
 import bpy
 import gpu
 import numpy as np
-from gpu_extras.batch import batch_for_shader
 from numpy.typing import NDArray
 
 FAR = 4096.0  # Blender rounds positions in a region to pixels: the scale is read off a long way
-EDGE, RIM = (0.85, 0.85, 0.85, 0.55), (1.0, 0.55, 0.1, 1.0)
+EDGE, RIM = (0.85, 0.85, 0.85), (1.0, 0.55, 0.1, 1.0)
+MANY, FEW_OPACITY, MANY_OPACITY = 20_000, 0.55, 0.2  # UV vertices, whose edges are not to hide the image
 CENTER, PINNED, SELECTED = ((1.0, 1.0, 1.0, 1.0), 9.0), ((1.0, 0.25, 0.2, 1.0), 9.0), ((1.0, 1.0, 1.0, 1.0), 4.0)
 
 
@@ -37,20 +37,22 @@ class UVOverlay:
 
     def _draw(self) -> None:
         shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+        depth = gpu.state.depth_test_get()
         gpu.state.blend_set("ALPHA")
+        gpu.state.depth_test_set("NONE")  # since 5.0 the image would hide what is drawn
         with gpu.matrix.push_pop():
             self._to_region(bpy.context.region.view2d)
             for values, pairs in self.edges:
-                vertices = gpu.types.GPUVertBuf(shader.format_calc(), len(values))
-                vertices.attr_fill("pos", _in_space(values))
-                _colored(shader, gpu.types.GPUBatch(type="LINES", buf=vertices, elem=pairs), EDGE)
+                opacity = FEW_OPACITY if len(values) < MANY else MANY_OPACITY
+                _colored(shader, _batch("LINES", values, pairs), (*EDGE, opacity))
             for rim in self.rims:
-                _colored(shader, batch_for_shader(shader, "LINE_STRIP", {"pos": _in_space(rim)}), RIM)
+                _colored(shader, _batch("LINE_STRIP", rim), RIM)
             for points, (color, size) in self.points:
                 if len(points):
                     gpu.state.point_size_set(size)
-                    _colored(shader, batch_for_shader(shader, "POINTS", {"pos": _in_space(points)}), color)
+                    _colored(shader, _batch("POINTS", points), color)
             gpu.state.point_size_set(1.0)
+        gpu.state.depth_test_set(depth)
         gpu.state.blend_set("NONE")
 
     @staticmethod
@@ -69,11 +71,15 @@ def line_pairs(sides: NDArray[np.int64]) -> gpu.types.GPUIndexBuf:
     return gpu.types.GPUIndexBuf(type="LINES", seq=pairs)
 
 
-def _in_space(points: NDArray[np.floating]) -> NDArray[np.float32]:
+def _batch(kind: str, points: NDArray[np.floating], pairs: gpu.types.GPUIndexBuf | None = None) -> gpu.types.GPUBatch:
     """Points (k, 2) at height 0, as the built-in shaders take them."""
-    out = np.zeros((len(points), 3), dtype=np.float32)
-    out[:, :2] = points
-    return out
+    places = np.zeros((len(points), 3), dtype=np.float32)
+    places[:, :2] = points
+    layout = gpu.types.GPUVertFormat()
+    layout.attr_add(id="pos", comp_type="F32", len=3, fetch_mode="FLOAT")
+    vertices = gpu.types.GPUVertBuf(layout, len(places))
+    vertices.attr_fill("pos", places)
+    return gpu.types.GPUBatch(type=kind, buf=vertices, **({} if pairs is None else {"elem": pairs}))
 
 
 def _colored(shader: gpu.types.GPUShader, batch: gpu.types.GPUBatch, color: tuple[float, ...]) -> None:
