@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from .operators import (
         Distortion,
         Moebius,
+        SphereMoebius,
         cotangent_laplacian,
         cotangent_laplacian_intrinsic,
         distortion,
@@ -65,7 +66,15 @@ if TYPE_CHECKING:
     from .rectangle import RectangleMap, rectangle_map
     from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, flipped_polygons, unwrap_numbers
     from .shape_mapper import ShapeMapper
-    from .sphere import SphereMap, equirectangular, octahedral, sphere_map
+    from .sphere import (
+        SphereMap,
+        StoredSphere,
+        equirectangular,
+        octahedral,
+        on_sphere,
+        sphere_map,
+        stored_sphere,
+    )
 
 __all__ = [
     "AugmentedLagrangianStep",
@@ -102,6 +111,8 @@ __all__ = [
     "ShapeMapper",
     "SolverError",
     "SphereMap",
+    "SphereMoebius",
+    "StoredSphere",
     "Surface",
     "TopologyError",
     "UVIslands",
@@ -124,10 +135,12 @@ __all__ = [
     "island_surface",
     "mixed_voronoi_areas",
     "octahedral",
+    "on_sphere",
     "pack_together",
     "pinned_map",
     "rectangle_map",
     "sphere_map",
+    "stored_sphere",
     "triangulate",
     "uniform_laplacian",
     "unwrap",
@@ -170,6 +183,8 @@ _HOME = {
     "ShapeMapper": "shape_mapper",
     "SolverError": "errors",
     "SphereMap": "sphere",
+    "SphereMoebius": "operators",
+    "StoredSphere": "sphere",
     "Surface": "mesh",
     "TopologyError": "errors",
     "UVIslands": "charts",
@@ -191,10 +206,12 @@ _HOME = {
     "island_surface": "charts",
     "mixed_voronoi_areas": "operators",
     "octahedral": "sphere",
+    "on_sphere": "sphere",
     "pack_together": "charts",
     "pinned_map": "free",
     "rectangle_map": "rectangle",
     "sphere_map": "sphere",
+    "stored_sphere": "sphere",
     "triangulate": "mesh.triangulate",
     "uniform_laplacian": "operators",
     "unwrap": "charts",

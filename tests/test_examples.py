@@ -28,6 +28,7 @@ RESULTS = {
     "RectangleMap",
     "Repair",
     "SphereMap",
+    "StoredSphere",
     "UVIslands",
 }
 SHOWN_ELSEWHERE = RESULTS | {"equirectangular", "octahedral"} | ERRORS - {"ConformalUVError"}
