@@ -7,9 +7,11 @@ import bpy
 
 from .live_operator import UV_OT_conformal_live
 from .slide_operator import UV_OT_conformal_slide
+from .sphere_slide_operator import UV_OT_conformal_sphere_slide
 
 ICONS = Path(__file__).parent / "icons"
-OPERATORS = (UV_OT_conformal_slide, UV_OT_conformal_live)
+OPERATORS = (UV_OT_conformal_slide, UV_OT_conformal_live, UV_OT_conformal_sphere_slide)
+KEYMAP = "UV Editor"
 LEFT_PRESS = {"type": "LEFTMOUSE", "value": "PRESS"}
 
 _items = []
@@ -59,6 +61,19 @@ def forget(*_):
         live_pins.forget()
 
 
+def draw_shortcuts(layout, context):
+    """The tools' shortcuts, to be given keys, for the add-on's preferences."""
+    import rna_keymap_ui
+
+    configuration = context.window_manager.keyconfigs.user
+    keymap = configuration.keymaps.get(KEYMAP)
+    names = {operator.bl_idname for operator in OPERATORS}
+    for item in [] if keymap is None else keymap.keymap_items:
+        if item.idname in names:
+            layout.context_pointer_set("keymap", keymap)
+            rna_keymap_ui.draw_kmi([], configuration, keymap, item, layout, 0)
+
+
 def register():
     for operator in OPERATORS:
         bpy.utils.register_class(operator)
@@ -68,7 +83,7 @@ def register():
         bpy.utils.register_tool(tool, separator=number == 0)
     configuration = bpy.context.window_manager.keyconfigs.addon
     if configuration is not None:  # in background there is none
-        keymap = configuration.keymaps.new(name="UV Editor", space_type="EMPTY")
+        keymap = configuration.keymaps.new(name=KEYMAP, space_type="EMPTY")
         for operator in OPERATORS:
             item = keymap.keymap_items.new(operator.bl_idname, "NONE", "PRESS")
             item.active = False

@@ -62,7 +62,8 @@ class Driven:
         if "default" in deferred.keywords:
             return deferred.keywords["default"]
         kind = deferred.function.__name__
-        return {"StringProperty": "", "FloatProperty": 0.0, "FloatVectorProperty": (0.0, 0.0)}[kind]
+        zeros = (0.0,) * deferred.keywords.get("size", 0)
+        return {"StringProperty": "", "FloatProperty": 0.0, "FloatVectorProperty": zeros}[kind]
 
     def __getattr__(self, name):
         found = getattr(self.__dict__["_cls"], name)
