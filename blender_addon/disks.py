@@ -13,9 +13,7 @@ from conformal_uv import DiskIsland, disk_islands
 
 from .uv_objects import UVObject, folds_told, uv_objects
 
-NONE_FOUND = (
-    "no island of the active UV map is a disk: its boundary would lie on a circle. Unwrap with the shape Disk first"
-)
+NONE_FOUND = "no island of the active UV map is a disk, its boundary on a circle; unwrap with the shape Disk first"
 NONE_SELECTED = "no disk is selected; select its faces, or put the cursor over it"
 SMOOTH = 181  # points of a circle as it is drawn
 LARGEST = 0.9995  # distance of a centre from the middle; farther out the rest is lost in single precision

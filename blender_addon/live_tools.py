@@ -22,9 +22,12 @@ class ConformalSlideTool(bpy.types.WorkSpaceTool):
     bl_context_mode = "UV"
     bl_idname = "conformal_uv.slide"
     bl_label = "Conformal Slide"
-    bl_description = "Drag what should go elsewhere in a disk; wheel turns it"
+    bl_description = "Drag what should go elsewhere in a disk, the wheel turns it; on a sphere the wheel magnifies"
     bl_icon = str(ICONS / "conformal_slide")
-    bl_keymap = ((UV_OT_conformal_slide.bl_idname, LEFT_PRESS, None),)
+    bl_keymap = (
+        (UV_OT_conformal_slide.bl_idname, LEFT_PRESS, None),
+        (UV_OT_conformal_sphere_slide.bl_idname, LEFT_PRESS, None),  # where the first finds no disk
+    )
 
 
 class ConformalLiveTool(bpy.types.WorkSpaceTool):

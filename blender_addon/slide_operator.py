@@ -95,6 +95,9 @@ class UV_OT_conformal_slide(bpy.types.Operator):
         if not in_uv_editor(context):
             return self.execute(context)
         disks = find_disks(context, target_objects(context))
+        self._by_press = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
+        if not disks and self._by_press:
+            return {"PASS_THROUGH"}  # the tool slides spheres too
         self._area, self._region = context.area, window_region(context.area)
         at = uv_at(self._region, event)
         under = disk_under(disks, at)
@@ -103,7 +106,6 @@ class UV_OT_conformal_slide(bpy.types.Operator):
             self.report({"ERROR"}, NONE_SELECTED if disks else NONE_FOUND)
             return {"CANCELLED"}
         self.object_name, self.face = (under.ob.name, under.face) if under else ("", -1)
-        self._by_press = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
         self._start(context, chosen, at if under else None)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}

@@ -59,18 +59,23 @@ class LiveSpheres:
         self._spheres = spheres
         self._live = LiveUVs(context, [sphere.ob for sphere in spheres])
         self._before = {sphere: _positions(sphere.key) for sphere in spheres}
+        self._moved: dict[Sphere, NDArray[np.float64]] = {}
 
     def show(self, moebius: SphereMoebius) -> None:
-        """Write what a map of the sphere makes of them."""
+        """Write what a map of the sphere makes of them; shape keys that are not seen now only at the end."""
         for sphere in self._spheres:
-            positions = sphere.stored.positions(moebius).astype(np.float32)
-            sphere.key.data.foreach_set("co", positions.reshape(-1))
+            moved = moebius(sphere.stored.xyz)
+            self._moved[sphere] = moved
+            if sphere.key.value != 0.0 or sphere.ob.show_only_shape_key:
+                self._write_key(sphere)
             if sphere.stored.octahedron is not None:
-                self._live.values[sphere.ob][:] = sphere.stored.uv(moebius)
+                self._live.values[sphere.ob][:] = sphere.stored.uv(moved)
             self._live.show(sphere.ob)
 
     def keep(self) -> None:
         """End: what was shown stays."""
+        for sphere in self._moved:
+            self._write_key(sphere)
         self._live.keep()
 
     def restore(self) -> None:
@@ -78,6 +83,10 @@ class LiveSpheres:
         for sphere, before in self._before.items():
             sphere.key.data.foreach_set("co", before.reshape(-1))
         self._live.restore()
+
+    def _write_key(self, sphere: Sphere) -> None:
+        positions = sphere.stored.positions(self._moved[sphere]).astype(np.float32)
+        sphere.key.data.foreach_set("co", positions.reshape(-1))
 
 
 class SphereSlide:

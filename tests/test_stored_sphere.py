@@ -107,8 +107,8 @@ def test_a_stored_sphere_is_found_and_moved(octahedron):
     assert found.radius == pytest.approx(2.5, abs=1e-6)
     np.testing.assert_allclose(found.xyz, start, atol=1e-6)
     moebius = cuv.SphereMoebius.of([0.0, -0.4, 0.2])
-    np.testing.assert_allclose(found.positions(moebius), [1.0, 2.0, 3.0] + 2.5 * moebius(start), atol=1e-5)
-    assert (np.abs(found.uv(moebius) - layout(moebius(start), mesh)).max(axis=1) < 1e-4).mean() > 0.98
+    np.testing.assert_allclose(found.positions(moebius(found.xyz)), [1.0, 2.0, 3.0] + 2.5 * moebius(start), atol=1e-5)
+    assert (np.abs(found.uv(moebius(found.xyz)) - layout(moebius(start), mesh)).max(axis=1) < 1e-4).mean() > 0.98
 
 
 def test_what_is_no_sphere_is_not_taken():

@@ -19,18 +19,20 @@ def equirectangular(xyz: Real, mesh: PolygonMesh) -> Real:
     corner at a pole takes the mean longitude of its polygon's others. A polygon with a pole in its inside has all
     longitudes and no good place; `octahedral` has none such.
     """
-    x, y, z = xyz[mesh.corners].T
-    u = 0.5 + np.arctan2(y, x) / (2.0 * np.pi)
-    v = 0.5 + np.arcsin(np.clip(z, -1.0, 1.0)) / np.pi
-    polygon = np.repeat(np.arange(len(mesh.sizes)), mesh.sizes)
-    pole = np.hypot(x, y) < 1e-12
-    least = np.minimum.reduceat(np.where(pole, np.inf, u), mesh.starts[:-1])
-    most = np.maximum.reduceat(np.where(pole, -np.inf, u), mesh.starts[:-1])
-    across = (most - least)[polygon] > 0.5
-    u = np.where(across & (u < 0.5), u + 1.0, u)
-    count = np.bincount(polygon, weights=~pole, minlength=len(mesh.sizes))
-    mean = np.bincount(polygon, weights=np.where(pole, 0.0, u), minlength=len(mesh.sizes)) / np.maximum(count, 1.0)
-    return np.column_stack((np.where(pole, mean[polygon], u), v))
+    x, y, z = xyz.T
+    pole = (np.hypot(x, y) < 1e-12)[mesh.corners]
+    u = (0.5 + np.arctan2(y, x) / (2.0 * np.pi))[mesh.corners]
+    v = (0.5 + np.arcsin(np.clip(z, -1.0, 1.0)) / np.pi)[mesh.corners]
+    first, poles = mesh.starts[:-1], bool(pole.any())
+    least = np.minimum.reduceat(np.where(pole, np.inf, u) if poles else u, first)
+    most = np.maximum.reduceat(np.where(pole, -np.inf, u) if poles else u, first)
+    across = np.repeat(most - least > 0.5, mesh.sizes)
+    u[across & (u < 0.5)] += 1.0
+    if poles:
+        count = np.add.reduceat(~pole, first, dtype=np.int64)
+        mean = np.add.reduceat(np.where(pole, 0.0, u), first) / np.maximum(count, 1)
+        u[pole] = np.repeat(mean, mesh.sizes)[pole]
+    return np.column_stack((u, v))
 
 
 def octahedral(xyz: Real, mesh: PolygonMesh) -> Real:

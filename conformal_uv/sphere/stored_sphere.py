@@ -1,4 +1,4 @@
-"""A map to the sphere as it is stored, in positions and in texture coordinates, moved by Moebius maps of the sphere."""
+"""A map to the sphere as it is stored, in positions and in texture coordinates."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.polygons import PolygonMesh
-from ..operators.sphere_moebius import SphereMoebius
 from .layout import equirectangular, octahedral
 
 __all__ = ["StoredSphere", "stored_sphere"]
@@ -41,14 +40,13 @@ class StoredSphere:
     xyz: Real
     octahedron: bool | None
 
-    def positions(self, moebius: SphereMoebius) -> Real:
-        """Positions (n, 3) after a map of the sphere."""
-        return self.center + self.radius * moebius(self.xyz)
+    def positions(self, xyz: Real) -> Real:
+        """Positions (n, 3) for points (n, 3) of the unit sphere."""
+        return self.center + self.radius * xyz
 
-    def uv(self, moebius: SphereMoebius) -> Real:
-        """Texture coordinates (k, 2) of the corners after it."""
-        layout = octahedral if self.octahedron else equirectangular
-        return layout(moebius(self.xyz), self.mesh)
+    def uv(self, xyz: Real) -> Real:
+        """Texture coordinates (k, 2) of the corners for them."""
+        return (octahedral if self.octahedron else equirectangular)(xyz, self.mesh)
 
 
 def stored_sphere(mesh: PolygonMesh, positions: ArrayLike, corner_uv: ArrayLike | None = None) -> StoredSphere | None:

@@ -118,11 +118,17 @@ def test_the_view_moves_while_a_tool_runs(slide):
     slide.press("ESC")
 
 
-def test_nothing_to_slide_is_told(slide):
+def test_nothing_to_slide_is_told(tools, slide):
     scenes.leave()
     bpy.ops.uv.conformal_unwrap(shape="RECTANGLE")
-    assert slide.press(at=MIDDLE) == {"CANCELLED"}
+    assert slide.press(at=MIDDLE) == {"PASS_THROUGH"}  # to the next operator of the tool
+    slide._running = False
+    assert slide.told == []
+    assert slide.press("S", at=MIDDLE) == {"CANCELLED"}
     assert "no island of the active UV map is a disk" in slide.told[0]
+    sphere = windowless.Driven(tools.UV_OT_conformal_sphere_slide)
+    assert sphere.press(at=MIDDLE) == {"CANCELLED"}
+    assert "is a disk" in sphere.told[0] and "no shape key" in sphere.told[0]
 
 
 def test_drags_of_pins_are_what_execute_does(live, mode):
