@@ -5,9 +5,9 @@ All mathematics is in the package conformal_uv: beside this one in a checkout, i
 
 import bpy
 
-from . import command, last_result, menus, operators, panel, sphere
+from . import command, last_result, live_tools, menus, operators, panel, sphere
 
-MODULES = (operators, sphere, panel, menus, command)
+MODULES = (operators, sphere, panel, menus, live_tools, command)
 
 
 @bpy.app.handlers.persistent

@@ -98,6 +98,16 @@ def selected_uvs(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
     return _attribute(mesh, name, "value", np.bool_, len(mesh.loops))
 
 
+def read_corner_flags(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
+    """A boolean attribute of corners, (k,)."""
+    return _attribute(mesh, name, "value", np.bool_, len(mesh.loops))
+
+
+def read_selected_vertices(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+    """Which vertices are selected, (n,)."""
+    return _attribute(mesh, ".select_vert", "value", np.bool_, len(mesh.vertices))
+
+
 def read_corner_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     """The edge of every corner, (k,)."""
     return _attribute(mesh, ".corner_edge", "value", np.int32, len(mesh.loops))

@@ -17,7 +17,7 @@ NO_CORNERS = (
 )
 HOW_TO_USE = {
     "DISK": "; unpin them, or pin three on the boundary and turn on Use Pins",
-    "FREE": "; unpin them",
+    "FREE": "; unpin them, or map the island from its pins with Conformal Live Pins",
     "RECTANGLE": "; unpin them, or pin four on the boundary and turn on Use Pins",
 }
 

@@ -13,11 +13,18 @@ from ._version import __version__
 if TYPE_CHECKING:
     from .charts import (
         Chart,
+        DiskIsland,
+        IslandSurface,
+        PinDrag,
         Placement,
         Unwrapped,
         Unwrapper,
+        UVIslands,
+        disk_islands,
+        island_surface,
         pack_together,
         unwrap,
+        uv_islands,
     )
     from .disk import DiskMap, DiskMapper, disk_map
     from .disk.repair import Repair
@@ -39,12 +46,13 @@ if TYPE_CHECKING:
         TopologyError,
         UnreferencedVertexError,
     )
-    from .free import FreeMap, free_map
+    from .free import FreeMap, PinnedMapper, free_map, pinned_map
     from .mesh import PolygonMesh, Surface
     from .mesh.triangulate import triangulate
     from .operators import (
         Distortion,
         Moebius,
+        SphereMoebius,
         cotangent_laplacian,
         cotangent_laplacian_intrinsic,
         distortion,
@@ -58,7 +66,15 @@ if TYPE_CHECKING:
     from .rectangle import RectangleMap, rectangle_map
     from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, flipped_polygons, unwrap_numbers
     from .shape_mapper import ShapeMapper
-    from .sphere import SphereMap, equirectangular, octahedral, sphere_map
+    from .sphere import (
+        SphereMap,
+        StoredSphere,
+        equirectangular,
+        octahedral,
+        on_sphere,
+        sphere_map,
+        stored_sphere,
+    )
 
 __all__ = [
     "AugmentedLagrangianStep",
@@ -68,6 +84,7 @@ __all__ = [
     "ConformalUVError",
     "DegenerateFaceError",
     "DisconnectedError",
+    "DiskIsland",
     "DiskMap",
     "DiskMapper",
     "Distortion",
@@ -75,6 +92,7 @@ __all__ = [
     "DuplicateFaceError",
     "FileFormatError",
     "FreeMap",
+    "IslandSurface",
     "MeshError",
     "MissingDependencyError",
     "Moebius",
@@ -83,6 +101,8 @@ __all__ = [
     "NonManifoldError",
     "OptionError",
     "OrientationError",
+    "PinDrag",
+    "PinnedMapper",
     "Placement",
     "PolygonMesh",
     "RectangleMap",
@@ -91,8 +111,11 @@ __all__ = [
     "ShapeMapper",
     "SolverError",
     "SphereMap",
+    "SphereMoebius",
+    "StoredSphere",
     "Surface",
     "TopologyError",
+    "UVIslands",
     "UnreferencedVertexError",
     "UnwrapNumbers",
     "Unwrapped",
@@ -100,6 +123,7 @@ __all__ = [
     "__version__",
     "cotangent_laplacian",
     "cotangent_laplacian_intrinsic",
+    "disk_islands",
     "disk_map",
     "distortion",
     "distortion_numbers",
@@ -108,15 +132,20 @@ __all__ = [
     "flipped_polygons",
     "free_map",
     "gradient",
+    "island_surface",
     "mixed_voronoi_areas",
     "octahedral",
+    "on_sphere",
     "pack_together",
+    "pinned_map",
     "rectangle_map",
     "sphere_map",
+    "stored_sphere",
     "triangulate",
     "uniform_laplacian",
     "unwrap",
     "unwrap_numbers",
+    "uv_islands",
 ]
 
 _HOME = {
@@ -127,6 +156,7 @@ _HOME = {
     "ConformalUVError": "errors",
     "DegenerateFaceError": "errors",
     "DisconnectedError": "errors",
+    "DiskIsland": "charts",
     "DiskMap": "disk",
     "DiskMapper": "disk",
     "Distortion": "operators",
@@ -134,6 +164,7 @@ _HOME = {
     "DuplicateFaceError": "errors",
     "FileFormatError": "errors",
     "FreeMap": "free",
+    "IslandSurface": "charts",
     "MeshError": "errors",
     "MissingDependencyError": "errors",
     "Moebius": "operators",
@@ -142,6 +173,8 @@ _HOME = {
     "NonManifoldError": "errors",
     "OptionError": "errors",
     "OrientationError": "errors",
+    "PinDrag": "charts",
+    "PinnedMapper": "free",
     "Placement": "charts",
     "PolygonMesh": "mesh",
     "RectangleMap": "rectangle",
@@ -150,14 +183,18 @@ _HOME = {
     "ShapeMapper": "shape_mapper",
     "SolverError": "errors",
     "SphereMap": "sphere",
+    "SphereMoebius": "operators",
+    "StoredSphere": "sphere",
     "Surface": "mesh",
     "TopologyError": "errors",
+    "UVIslands": "charts",
     "UnreferencedVertexError": "errors",
     "UnwrapNumbers": "report",
     "Unwrapped": "charts",
     "Unwrapper": "charts",
     "cotangent_laplacian": "operators",
     "cotangent_laplacian_intrinsic": "operators",
+    "disk_islands": "charts",
     "disk_map": "disk",
     "distortion": "operators",
     "distortion_numbers": "report",
@@ -166,15 +203,20 @@ _HOME = {
     "flipped_polygons": "report",
     "free_map": "free",
     "gradient": "operators",
+    "island_surface": "charts",
     "mixed_voronoi_areas": "operators",
     "octahedral": "sphere",
+    "on_sphere": "sphere",
     "pack_together": "charts",
+    "pinned_map": "free",
     "rectangle_map": "rectangle",
     "sphere_map": "sphere",
+    "stored_sphere": "sphere",
     "triangulate": "mesh.triangulate",
     "uniform_laplacian": "operators",
     "unwrap": "charts",
     "unwrap_numbers": "report",
+    "uv_islands": "charts",
 }
 
 

@@ -6,11 +6,13 @@ from .distortion import Distortion, distortion
 from .gradient import gradient
 from .laplacian import cotangent_laplacian, cotangent_laplacian_intrinsic, uniform_laplacian
 from .moebius import Moebius
+from .sphere_moebius import SphereMoebius
 
 __all__ = [
     "DirichletProblem",
     "Distortion",
     "Moebius",
+    "SphereMoebius",
     "cotangent_laplacian",
     "cotangent_laplacian_intrinsic",
     "distortion",
