@@ -16,8 +16,10 @@ if TYPE_CHECKING:
         Placement,
         Unwrapped,
         Unwrapper,
+        pack_islands,
         pack_together,
         unwrap,
+        uv_islands,
     )
     from .disk import DiskMap, DiskMapper, disk_map
     from .disk.repair import Repair
@@ -110,6 +112,7 @@ __all__ = [
     "gradient",
     "mixed_voronoi_areas",
     "octahedral",
+    "pack_islands",
     "pack_together",
     "rectangle_map",
     "sphere_map",
@@ -117,6 +120,7 @@ __all__ = [
     "uniform_laplacian",
     "unwrap",
     "unwrap_numbers",
+    "uv_islands",
 ]
 
 _HOME = {
@@ -168,6 +172,7 @@ _HOME = {
     "gradient": "operators",
     "mixed_voronoi_areas": "operators",
     "octahedral": "sphere",
+    "pack_islands": "charts",
     "pack_together": "charts",
     "rectangle_map": "rectangle",
     "sphere_map": "sphere",
@@ -175,6 +180,7 @@ _HOME = {
     "uniform_laplacian": "operators",
     "unwrap": "charts",
     "unwrap_numbers": "report",
+    "uv_islands": "charts",
 }
 
 

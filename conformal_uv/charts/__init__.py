@@ -3,9 +3,21 @@
 from .chart import Chart
 from .chart_list import ChartList
 from .packing import Placement
+from .repacked import pack_islands
 from .together import pack_together
 from .unwrap import unwrap
 from .unwrapped import Unwrapped
 from .unwrapper import Unwrapper
+from .uv_islands import uv_islands
 
-__all__ = ["Chart", "ChartList", "Placement", "Unwrapped", "Unwrapper", "pack_together", "unwrap"]
+__all__ = [
+    "Chart",
+    "ChartList",
+    "Placement",
+    "Unwrapped",
+    "Unwrapper",
+    "pack_islands",
+    "pack_together",
+    "unwrap",
+    "uv_islands",
+]
