@@ -15,6 +15,8 @@ __all__ = ["CellPlaces", "pack_cells", "stencils"]
 
 Ints = NDArray[np.int64]
 
+LIKE = 20.0  # charts whose sizes differ by a 20th are alike: what cells make of them is no order
+
 
 @dataclass(frozen=True, eq=False)
 class CellPlaces:
@@ -48,7 +50,7 @@ def pack_cells(ways: Sequence[Sequence[Stencil]], side: int) -> CellPlaces | Non
     count = len(ways[0])
     powers = np.max([[stencil.powers for stencil in way] for way in ways], axis=0)
     size = np.array([(stencil.stop - stencil.start).sum() for stencil in ways[0]])
-    order = np.argsort(-size, kind="stable")
+    order = np.argsort(-np.round(LIKE * np.log(size)), kind="stable")
     most = np.maximum.accumulate(powers[order][::-1])[::-1].tolist()  # of this chart and those after it
     cells, extent = FreeCells(side, most[0]), 0
     places = CellPlaces(*(np.zeros(count, dtype=np.int64) for _ in range(3)))

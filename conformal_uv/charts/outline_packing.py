@@ -23,7 +23,8 @@ COARSE, FINE = 0.5, 1.5  # of these cells: to know the side that margins are a p
 MOST_LOOKUPS = 4e9  # bytes looked at; long thin charts are packed on coarser grids
 COARSEST = 96
 FIRST_WAYS = 4  # the quarter turns
-FEW = 64  # charts, of which all ways are tried from the first
+FEW = 64  # charts, of which all ways are tried from the first, and from the opposite corner too
+HALF_TURN = np.pi
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,19 +48,25 @@ class Packed:
 
 def pack_by_outline(outlines: Outlines, spacing: Spacing, angles: Real, enough: float) -> Packed | None:
     """Charts that are turned in one of several ways each, (ways, k); None where no side below `enough` is found."""
-    count = len(outlines)
-    cells, best = _cells(outlines, len(angles), enough), None
-    passes = [(COARSE, angles[:FIRST_WAYS]), (1.0, angles[:FIRST_WAYS])]
-    if len(angles) > FIRST_WAYS:
-        passes = passes[count <= FEW :] + [(1.0, angles)]
-    for part, given in passes:
-        found = _packed(outlines, given, spacing, enough, enough / int(max(COARSEST, part * cells)))
+    cells, best, from_far = _cells(outlines, len(angles), enough), None, False
+    for part, given, far in _passes(angles):
+        found = _packed(outlines, given, spacing, enough, enough / int(max(COARSEST, part * cells)), far)
         if found is not None and found.side < enough:
-            best, enough = found, found.side
+            best, enough, from_far = found, found.side, far
     if best is not None and len(angles) > 1:
-        found = _packed(outlines, best.angle[None], spacing, enough, enough / int(max(COARSEST, FINE * cells)))
+        chosen = best.angle[None]
+        found = _packed(outlines, chosen, spacing, enough, enough / int(max(COARSEST, FINE * cells)), from_far)
         best = best if found is None or found.side >= enough else found
     return best
+
+
+def _passes(angles: Real) -> list[tuple[float, Real, bool]]:
+    """Part of the cells, ways, and whether charts grow from the far corner: in turn."""
+    ways, count = angles.shape
+    first = angles[:FIRST_WAYS]
+    if count > FEW:
+        return [(COARSE, first, False), (1.0, first, False)] + ([(1.0, angles, False)] if ways > FIRST_WAYS else [])
+    return [(COARSE, first, False), (1.0, angles, False), (1.0, angles, True)]
 
 
 def _cells(outlines: Outlines, ways: int, side: float) -> float:
@@ -69,8 +76,11 @@ def _cells(outlines: Outlines, ways: int, side: float) -> float:
     return min(cells, (4.0 * MOST_LOOKUPS / max(rows, 1.0)) ** (1.0 / 3.0))
 
 
-def _packed(outlines: Outlines, angles: Real, spacing: Spacing, enough: float, cell: float) -> Packed | None:
-    """The same on one grid."""
+def _packed(
+    outlines: Outlines, angles: Real, spacing: Spacing, enough: float, cell: float, from_far: bool
+) -> Packed | None:
+    """The same on one grid; from the far corner: all turned by half a turn, there and back."""
+    angles = angles + HALF_TURN if from_far else angles
     ways = [outlines.turned(angle) if angle.any() else outlines for angle in angles]
     gap = spacing.between(enough)
     edge = spacing.at_sides * gap
@@ -84,5 +94,6 @@ def _packed(outlines: Outlines, angles: Real, spacing: Spacing, enough: float, c
     corner = cell * (places.column + 1j * places.row)
     corner -= corner.real.min() + 1j * corner.imag.min()
     far = corner + size
-    inside = edge * (1.0 + 1j)
-    return Packed(angles[places.way, chart], corner + inside - low, max(far.real.max(), far.imag.max()) + 2.0 * edge)
+    origin, side = corner + edge * (1.0 + 1j) - low, float(max(far.real.max(), far.imag.max())) + 2.0 * edge
+    angle = angles[places.way, chart]
+    return Packed(angle - HALF_TURN, side * (1.0 + 1j) - origin, side) if from_far else Packed(angle, origin, side)
