@@ -5,9 +5,9 @@ All mathematics is in the package conformal_uv, which the extension brings as a 
 
 import bpy
 
-from . import command, last_result, menus, operators, panel, sphere
+from . import command, flatten, last_result, menus, operators, overlay, pack_operator, panel, sphere
 
-MODULES = (operators, sphere, panel, menus, command)
+MODULES = (operators, pack_operator, overlay, flatten, sphere, panel, menus, command)
 
 
 @bpy.app.handlers.persistent

@@ -13,9 +13,11 @@ from ._version import __version__
 if TYPE_CHECKING:
     from .charts import (
         Chart,
+        FlatMesh,
         Placement,
         Unwrapped,
         Unwrapper,
+        flattened,
         pack_islands,
         pack_together,
         unwrap,
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     )
     from .disk import DiskMap, DiskMapper, disk_map
     from .disk.repair import Repair
+    from .distortion_colors import angle_colors, area_colors
     from .errors import (
         CancelledError,
         ConformalUVError,
@@ -47,12 +50,14 @@ if TYPE_CHECKING:
     from .operators import (
         Distortion,
         Moebius,
+        PolygonDistortion,
         cotangent_laplacian,
         cotangent_laplacian_intrinsic,
         distortion,
         face_areas,
         gradient,
         mixed_voronoi_areas,
+        polygon_distortion,
         uniform_laplacian,
     )
     from .optimize import AugmentedLagrangianStep, NewtonStep
@@ -76,6 +81,7 @@ __all__ = [
     "DistortionNumbers",
     "DuplicateFaceError",
     "FileFormatError",
+    "FlatMesh",
     "FreeMap",
     "MeshError",
     "MissingDependencyError",
@@ -86,6 +92,7 @@ __all__ = [
     "OptionError",
     "OrientationError",
     "Placement",
+    "PolygonDistortion",
     "PolygonMesh",
     "RectangleMap",
     "Remedy",
@@ -100,6 +107,8 @@ __all__ = [
     "Unwrapped",
     "Unwrapper",
     "__version__",
+    "angle_colors",
+    "area_colors",
     "cotangent_laplacian",
     "cotangent_laplacian_intrinsic",
     "disk_map",
@@ -107,6 +116,7 @@ __all__ = [
     "distortion_numbers",
     "equirectangular",
     "face_areas",
+    "flattened",
     "flipped_polygons",
     "free_map",
     "gradient",
@@ -114,6 +124,7 @@ __all__ = [
     "octahedral",
     "pack_islands",
     "pack_together",
+    "polygon_distortion",
     "rectangle_map",
     "sphere_map",
     "triangulate",
@@ -137,6 +148,7 @@ _HOME = {
     "DistortionNumbers": "report",
     "DuplicateFaceError": "errors",
     "FileFormatError": "errors",
+    "FlatMesh": "charts",
     "FreeMap": "free",
     "MeshError": "errors",
     "MissingDependencyError": "errors",
@@ -147,6 +159,7 @@ _HOME = {
     "OptionError": "errors",
     "OrientationError": "errors",
     "Placement": "charts",
+    "PolygonDistortion": "operators",
     "PolygonMesh": "mesh",
     "RectangleMap": "rectangle",
     "Remedy": "errors",
@@ -160,6 +173,8 @@ _HOME = {
     "UnwrapNumbers": "report",
     "Unwrapped": "charts",
     "Unwrapper": "charts",
+    "angle_colors": "distortion_colors",
+    "area_colors": "distortion_colors",
     "cotangent_laplacian": "operators",
     "cotangent_laplacian_intrinsic": "operators",
     "disk_map": "disk",
@@ -167,6 +182,7 @@ _HOME = {
     "distortion_numbers": "report",
     "equirectangular": "sphere",
     "face_areas": "operators",
+    "flattened": "charts",
     "flipped_polygons": "report",
     "free_map": "free",
     "gradient": "operators",
@@ -174,6 +190,7 @@ _HOME = {
     "octahedral": "sphere",
     "pack_islands": "charts",
     "pack_together": "charts",
+    "polygon_distortion": "operators",
     "rectangle_map": "rectangle",
     "sphere_map": "sphere",
     "triangulate": "mesh.triangulate",

@@ -2,6 +2,7 @@
 
 from .chart import Chart
 from .chart_list import ChartList
+from .flattened import FlatMesh, flattened
 from .packing import Placement
 from .repacked import pack_islands
 from .together import pack_together
@@ -13,9 +14,11 @@ from .uv_islands import uv_islands
 __all__ = [
     "Chart",
     "ChartList",
+    "FlatMesh",
     "Placement",
     "Unwrapped",
     "Unwrapper",
+    "flattened",
     "pack_islands",
     "pack_together",
     "unwrap",

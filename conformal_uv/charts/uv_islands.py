@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..mesh.polygons import PolygonMesh
 
-__all__ = ["uv_islands"]
+__all__ = ["uv_islands", "uv_sites"]
 
 Ints = NDArray[np.int64]
 
@@ -37,8 +37,7 @@ def uv_islands(mesh: PolygonMesh, corner_uv: ArrayLike, chosen: NDArray[np.bool_
     count = len(mesh.sizes)
     face = np.repeat(np.arange(count), mesh.sizes)
     taken = np.ones(count, dtype=bool) if chosen is None else np.asarray(chosen, dtype=bool)
-    uv = np.asarray(corner_uv, dtype=np.float64) + 0.0  # -0 is 0
-    site = _numbered(mesh.corners, uv[:, 0].view(np.int64), uv[:, 1].view(np.int64))
+    site = uv_sites(mesh, corner_uv)
     following = np.arange(1, len(face) + 1)
     following[mesh.starts[1:] - 1] = mesh.starts[:-1]
     ends = np.sort(np.stack((site, site[following])), axis=0)
@@ -51,6 +50,12 @@ def uv_islands(mesh: PolygonMesh, corner_uv: ArrayLike, chosen: NDArray[np.bool_
     out = np.full(count, -1, dtype=np.int64)
     _, out[taken] = np.unique(island[taken], return_inverse=True)
     return out
+
+
+def uv_sites(mesh: PolygonMesh, corner_uv: ArrayLike) -> Ints:
+    """A number for each corner, (k,), the same for corners of one vertex at one place."""
+    uv = np.asarray(corner_uv, dtype=np.float64) + 0.0  # -0 is 0
+    return _numbered(mesh.corners, *np.ascontiguousarray(uv.T).view(np.int64))
 
 
 def _numbered(*keys: NDArray[np.integer]) -> Ints:
