@@ -32,7 +32,7 @@ class VIEW3D_OT_conformal_overlay(bpy.types.Operator):
         default="ANGLE",
     )
     most_angle: bpy.props.FloatProperty(
-        name="Limit", description="Angle error in degrees that is yellow", min=0.01, soft_max=90.0, default=20.0
+        name="Limit", description="Angle error in degrees that is yellow", min=0.01, soft_max=90.0, default=10.0
     )
     most_area: bpy.props.FloatProperty(
         name="Limit", description="Factor to the mean that is red, and its inverse blue", min=1.01, default=2.0

@@ -17,7 +17,7 @@ VIRIDIS = "440154 472d7b 3b528b 2c728e 21918c 28ae80 5ec962 addc30 fde725"
 COOL_WARM = "3b4cc0 6282ea 8db0fe b9d0f9 dddcdc f5c4ac f4987a dd5f4b b40426"
 
 
-def angle_colors(error: ArrayLike, most: float = 20.0) -> Real:
+def angle_colors(error: ArrayLike, most: float = 10.0) -> Real:
     """Angle errors from 0 to `most` degrees, dark violet to yellow (viridis).
 
     Returns

@@ -19,11 +19,12 @@ Complex = NDArray[np.complex128]
 
 CELLS_OF_CHART = 20  # across one, where all are alike
 FEWEST_CELLS, MOST_CELLS = 512, 640  # along the square's side
-COARSE, FINE = 0.5, 1.5  # of these cells: to know the side that margins are a part of, and once ways are chosen
-MOST_LOOKUPS = 4e9  # bytes looked at; long thin charts are packed on coarser grids
+COARSE, FINE = 0.5, 2.0  # of these cells: to know the side that margins are a part of, and once ways are chosen
+MOST_LOOKUPS = 1e10  # bytes looked at; long thin charts are packed on coarser grids
 COARSEST = 96
 FIRST_WAYS = 4  # the quarter turns
-FEW = 64  # charts, of which all ways are tried from the first, and from the opposite corner too
+FEW = 64  # charts, of which all ways are tried from the first
+MANY = 400  # charts, up to which the opposite corner is tried, too
 HALF_TURN = np.pi
 
 
@@ -48,14 +49,14 @@ class Packed:
 
 def pack_by_outline(outlines: Outlines, spacing: Spacing, angles: Real, enough: float) -> Packed | None:
     """Charts that are turned in one of several ways each, (ways, k); None where no side below `enough` is found."""
-    cells, best, from_far = _cells(outlines, len(angles), enough), None, False
+    best, from_far = None, False
     for part, given, far in _passes(angles):
-        found = _packed(outlines, given, spacing, enough, enough / int(max(COARSEST, part * cells)), far)
+        found = _packed(outlines, given, spacing, enough, enough / _cells(outlines, len(given), enough, part), far)
         if found is not None and found.side < enough:
             best, enough, from_far = found, found.side, far
     if best is not None and len(angles) > 1:
-        chosen = best.angle[None]
-        found = _packed(outlines, chosen, spacing, enough, enough / int(max(COARSEST, FINE * cells)), from_far)
+        fine = enough / _cells(outlines, 1, enough, FINE)
+        found = _packed(outlines, best.angle[None], spacing, enough, fine, from_far)
         best = best if found is None or found.side >= enough else found
     return best
 
@@ -64,16 +65,21 @@ def _passes(angles: Real) -> list[tuple[float, Real, bool]]:
     """Part of the cells, ways, and whether charts grow from the far corner: in turn."""
     ways, count = angles.shape
     first = angles[:FIRST_WAYS]
-    if count > FEW:
-        return [(COARSE, first, False), (1.0, first, False)] + ([(1.0, angles, False)] if ways > FIRST_WAYS else [])
-    return [(COARSE, first, False), (1.0, angles, False), (1.0, angles, True)]
+    if count <= FEW:
+        return [(COARSE, first, False), (1.0, angles, False), (1.0, angles, True)]
+    passes = [(COARSE, first, False), (1.0, first, False)]
+    if count <= MANY:
+        passes += [(1.0, first, True)]
+    if ways > FIRST_WAYS:
+        passes += [(1.0, angles, False)]
+    return passes
 
 
-def _cells(outlines: Outlines, ways: int, side: float) -> float:
-    """Along the side of the square."""
-    cells = float(np.clip(CELLS_OF_CHART * np.sqrt(len(outlines)), FEWEST_CELLS, MOST_CELLS))
+def _cells(outlines: Outlines, ways: int, side: float, part: float) -> int:
+    """Along the side of the square, or this part of them."""
+    cells = part * float(np.clip(CELLS_OF_CHART * np.sqrt(len(outlines)), FEWEST_CELLS, MOST_CELLS))
     rows = ways * float(outlines.size.imag.sum()) / side  # a lookup takes an eighth of the cells, and a row takes two
-    return min(cells, (4.0 * MOST_LOOKUPS / max(rows, 1.0)) ** (1.0 / 3.0))
+    return int(max(COARSEST, min(cells, (4.0 * MOST_LOOKUPS / max(rows, 1.0)) ** (1.0 / 3.0))))
 
 
 def _packed(
