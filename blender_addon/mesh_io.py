@@ -118,7 +118,14 @@ def uv_layer_name(mesh: bpy.types.Mesh, wanted: str) -> str:
 
 def has_room(mesh: bpy.types.Mesh, uv_layer: str) -> bool:
     """Whether the layer exists or can be made."""
-    return mesh.uv_layers.get(uv_layer) is not None or len(mesh.uv_layers) < MOST_UV_LAYERS
+    there = mesh.uv_layers.get(uv_layer) is not None or holds_vectors(mesh, uv_layer)
+    return there or len(mesh.uv_layers) < MOST_UV_LAYERS
+
+
+def holds_vectors(mesh: bpy.types.Mesh, name: str) -> bool:
+    """Whether there is a 3D vector attribute of corners of this name, which can hold UVs, too."""
+    attribute = mesh.attributes.get(name)
+    return attribute is not None and (attribute.domain, attribute.data_type) == ("CORNER", "FLOAT_VECTOR")
 
 
 def write_uv(mesh: bpy.types.Mesh, uv_layer: str, uv: NDArray[np.float64], written: NDArray[np.bool_]) -> None:
@@ -127,18 +134,19 @@ def write_uv(mesh: bpy.types.Mesh, uv_layer: str, uv: NDArray[np.float64], writt
     Parameters
     ----------
     uv_layer : str
-        Made, and made active, when missing.
+        A UV map, made, and made active, when missing; or a 3D vector attribute of corners, whose third component
+        becomes 0.
     uv : (k, 2)
     written : (k,) bool
     """
-    layer = mesh.uv_layers.get(uv_layer)
-    if layer is None:
-        layer = mesh.uv_layers.new(name=uv_layer)
-        mesh.uv_layers.active = layer
-    values = np.empty((len(mesh.loops), 2), dtype=np.float32)
-    data = mesh.attributes[layer.name].data
+    width = 3 if holds_vectors(mesh, uv_layer) else 2
+    if width == 2 and mesh.uv_layers.get(uv_layer) is None:
+        mesh.uv_layers.active = mesh.uv_layers.new(name=uv_layer)
+    values = np.empty((len(mesh.loops), width), dtype=np.float32)
+    data = mesh.attributes[uv_layer].data
     data.foreach_get("vector", values.reshape(-1))
-    np.copyto(values, uv, where=written[:, None], casting="same_kind")
+    values[written, 2:] = 0.0
+    np.copyto(values[:, :2], uv, where=written[:, None], casting="same_kind")
     data.foreach_set("vector", values.reshape(-1))
     mesh.update()
 

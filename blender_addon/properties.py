@@ -217,7 +217,8 @@ class UnwrapProperties(PackProperties):
     faces: EnumProperty(name="Faces", description="Which faces are unwrapped", items=FACES, default=DEFAULTS.faces)
     uv_layer: StringProperty(
         name="UV Map",
-        description="UV map to write, made when missing; empty: the active one",
+        description="UV map, or vector attribute of face corners, to write; a UV map is made when missing. Empty: the "
+        "active one",
         default=DEFAULTS.uv_layer,
     )
     only_selected_uvs: BoolProperty(

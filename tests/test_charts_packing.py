@@ -323,6 +323,13 @@ def test_margins_are_those_of_blender():
         assert min(low.real.min(), low.imag.min()) > around - 1e-4 and apart.min() > 2 * around - 2e-4
 
 
+@pytest.mark.parametrize("rotation", ["none", "any"])
+def test_what_does_not_fill_the_square_lies_in_its_lower_left_corner(rotation):
+    for charts in (SETS["strips"], [star(np.random.default_rng(i), 1.0) for i in range(3)], [L_SHAPE, L_SHAPE]):
+        every = np.concatenate(placed(charts, 0.01, pack_rotation=rotation))
+        assert [every.real.min(), every.imag.min()] == pytest.approx([0.01, 0.01], abs=1e-9)
+
+
 def test_scales_and_tiles_are_kept():
     charts = [rectangle(0.4, 0.2), rectangle(0.3, 0.3), rectangle(5.0, 0.1)]
     found = pack_charts(charts, PlaceOptions(margin=0.01, keep_scale=True, tile=1023))

@@ -99,7 +99,9 @@ def _packed(
     size = np.stack([way.size for way in ways])[places.way, chart]
     corner = cell * (places.column + 1j * places.row)
     corner -= corner.real.min() + 1j * corner.imag.min()
-    far = corner + size
-    origin, side = corner + edge * (1.0 + 1j) - low, float(max(far.real.max(), far.imag.max())) + 2.0 * edge
-    angle = angles[places.way, chart]
-    return Packed(angle - HALF_TURN, side * (1.0 + 1j) - origin, side) if from_far else Packed(angle, origin, side)
+    origin, far = corner + edge * (1.0 + 1j) - low, corner + size
+    across, up = far.real.max() + 2.0 * edge, far.imag.max() + 2.0 * edge
+    angle, side = angles[places.way, chart], float(max(across, up))
+    if from_far:
+        return Packed(angle - HALF_TURN, across + 1j * up - origin, side)
+    return Packed(angle, origin, side)

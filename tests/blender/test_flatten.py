@@ -139,3 +139,27 @@ def test_geometry_nodes_read_what_the_operator_wrote():
     made = ob.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
     corner = [loop.vertex_index for loop in made.loops]
     np.testing.assert_allclose(points(made.vertices)[corner][:, :2], scenes.uvs(ob, "pattern"), atol=1e-6)
+
+
+@pytest.mark.parametrize("mode", [scenes.leave, scenes.edit])
+def test_vectors_of_corners_are_written_too(mode):
+    """Where eight UV maps are taken, and for what is to stay out of their list."""
+    ob = scenes.grid()
+    while len(ob.data.uv_layers) < 8:
+        ob.data.uv_layers.new()
+    attribute = ob.data.attributes.new("flat", "FLOAT_VECTOR", "CORNER")
+    attribute.data.foreach_set("vector", np.full(3 * len(ob.data.loops), 7.0, dtype=np.float32))
+    kept = scenes.shadowed(scenes.uvs(ob, "UVMap"))
+    mode()
+    assert bpy.ops.uv.conformal_unwrap(shape="FREE", uv_layer="flat") == {"FINISHED"}
+    scenes.leave()
+    values = np.empty(3 * len(ob.data.loops), dtype=np.float32)
+    ob.data.attributes["flat"].data.foreach_get("vector", values)
+    assert scenes.shadowed(scenes.uvs(ob, "UVMap")) == kept
+    bpy.ops.uv.conformal_unwrap(shape="FREE", uv_layer="UVMap")
+    np.testing.assert_array_equal(values.reshape(-1, 3)[:, :2], scenes.uvs(ob, "UVMap"))
+    assert (values.reshape(-1, 3)[:, 2] == 0.0).all()
+    ob.data.uv_layers.remove(ob.data.uv_layers[7])
+    ob.data.attributes.new("weights", "FLOAT", "POINT")
+    with pytest.raises(RuntimeError, match="no vector of face corners"):
+        bpy.ops.uv.conformal_unwrap(uv_layer="weights")
