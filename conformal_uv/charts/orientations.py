@@ -17,6 +17,7 @@ Real = NDArray[np.float64]
 QUARTER = 0.5 * np.pi
 FEW = 64  # charts, up to which each is tried in MANY_WAYS
 MANY_WAYS, SOME_WAYS = 16, 8
+MOST_ASKEW = 150  # charts, up to which they are tried in more ways than along the axes: of more it gains nothing
 MOST_SIDES = 256  # of a hull, that are tried
 STEPS = 90  # in a quarter turn, that are tried besides
 
@@ -33,7 +34,7 @@ def angles(outlines: Outlines, rotation: PackRotation) -> Real:
     if rotation is PackRotation.QUARTERS:
         return quarters + np.zeros(count)
     flat, square = np.array([_turned_flat(hull(z)) for z in outlines.positions()]).T
-    if rotation is PackRotation.AXES:
+    if rotation is PackRotation.AXES or count > MOST_ASKEW:
         return quarters + flat
     ways = MANY_WAYS if count <= FEW else SOME_WAYS
     turns = 4.0 * QUARTER * np.arange(ways) / ways

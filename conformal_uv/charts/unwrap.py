@@ -119,7 +119,7 @@ def unwrap(
         surface, or that times a tenth of the sum of the mean sides of the charts' boxes there.
     pack_rotation : {"none", "quarters", "axes", "any"}
         How charts may be turned to be packed: not at all, by quarters, lying along the axes, or in 16 ways and more
-        (of more than 64 charts each in 12).
+        (of more than 64 charts each in 12; more than 150 lie along the axes).
     pack_shape : {"outline", "convex", "box"}
         What is packed of a chart; with "outline" others come to lie in its bays and holes.
     keep_scale : bool
