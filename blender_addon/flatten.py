@@ -1,6 +1,7 @@
 """The operator Conformal Flatten: the mesh laid flat by its active UV map, as a new object or a shape key."""
 
 import bpy
+from mathutils import Vector
 
 from .libraries import missing_library
 
@@ -107,6 +108,7 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
     def _new_object(self, context, ob, mesh):
         flat = bpy.data.objects.new(f"{ob.name} Flat", mesh)
         flat.location = ob.matrix_world.translation
+        flat.location.x = self.gap + max((ob.matrix_world @ Vector(corner)).x for corner in ob.bound_box)
         for collection in ob.users_collection or (context.scene.collection,):
             collection.objects.link(flat)
         return flat
