@@ -24,6 +24,16 @@ class FlatMesh:
         A vertex for each vertex of the surface at each of its places in the texture, z = 0.
     vertex : (n,) int64
         The vertex of the surface that each is.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> import numpy as np
+    >>> mesh = cuv.PolygonMesh(np.eye(4, 3), np.array([0, 1, 2, 0, 2, 3]), np.array([0, 3, 6]))
+    >>> apart = [[0, 0], [1, 0], [1, 1], [5, 0], [6, 1], [5, 1]]
+    >>> flat = cuv.flattened(mesh, apart)
+    >>> flat.vertex.tolist(), flat.torn.tolist()
+    ([0, 0, 1, 2, 2, 3], [0, 2])
     """
 
     mesh: PolygonMesh

@@ -27,6 +27,15 @@ class PolygonDistortion:
     area_scale : (p,) float64
         Area in the texture over area on the surface, as a multiple of that ratio for all polygons together; 0 where
         nothing is in the texture, infinite where a polygon without area is.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> import numpy as np
+    >>> mesh = cuv.PolygonMesh(np.eye(3), np.array([0, 1, 2]), np.array([0, 3]))
+    >>> found = cuv.polygon_distortion(mesh, [[0, 0], [1, 0], [0.5, 0.75**0.5]])
+    >>> found.angle_error.round(9).tolist(), found.area_scale.round(9).tolist()
+    ([0.0], [1.0])
     """
 
     angle_error: Real
