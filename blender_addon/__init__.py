@@ -5,9 +5,9 @@ All mathematics is in the package conformal_uv: beside this one in a checkout, i
 
 import bpy
 
-from . import command, last_result, live_tools, menus, operators, panel, sphere
+from . import command, flatten, last_result, live_tools, menus, operators, overlay, pack_operator, panel, sphere
 
-MODULES = (operators, sphere, panel, menus, live_tools, command)
+MODULES = (operators, pack_operator, overlay, flatten, sphere, panel, menus, live_tools, command)
 
 
 @bpy.app.handlers.persistent

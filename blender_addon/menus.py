@@ -2,7 +2,10 @@
 
 import bpy
 
+from .flatten import OBJECT_OT_conformal_flatten
 from .operators import UV_OT_conformal_unwrap
+from .overlay import VIEW3D_OT_conformal_overlay
+from .pack_operator import UV_OT_conformal_pack
 from .sphere import OBJECT_OT_conformal_sphere
 
 UNWRAPS = (  # the commonest first
@@ -10,6 +13,7 @@ UNWRAPS = (  # the commonest first
     ("DISK", "Conformal Disk Unwrap"),
     ("RECTANGLE", "Conformal Rectangle Unwrap"),
 )
+OVERLAYS = (("ANGLE", "Conformal: Show Angles"), ("AREA", "Conformal: Show Areas"), ("NONE", "Conformal: Show Nothing"))
 
 
 def draw(self, context):
@@ -22,7 +26,19 @@ def draw(self, context):
 
 def draw_for_objects(self, context):
     draw(self, context)
-    self.layout.operator(OBJECT_OT_conformal_sphere.bl_idname)
+    for operator in (OBJECT_OT_conformal_sphere, OBJECT_OT_conformal_flatten, UV_OT_conformal_pack):
+        self.layout.operator(operator.bl_idname)
+
+
+def draw_pack(self, context):
+    self.layout.operator_context = "INVOKE_DEFAULT"
+    self.layout.operator(UV_OT_conformal_pack.bl_idname)
+
+
+def draw_overlay(self, context):
+    self.layout.separator()
+    for quantity, text in OVERLAYS:
+        self.layout.operator(VIEW3D_OT_conformal_overlay.bl_idname, text=text).quantity = quantity
 
 
 def menus():
@@ -31,6 +47,8 @@ def menus():
     if bpy.app.version < (4, 3):
         yield bpy.types.VIEW3D_MT_uv_map, draw
     yield bpy.types.VIEW3D_MT_object, draw_for_objects
+    yield bpy.types.IMAGE_MT_uvs, draw_pack
+    yield bpy.types.VIEW3D_MT_view, draw_overlay
 
 
 def register():

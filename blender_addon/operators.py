@@ -80,12 +80,18 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
             self._worker.cancel(context)
 
     def execute(self, context):
+        from conformal_uv import OptionError
+
         from .unwrap_objects import unwrap_objects
 
         attended = self.options.is_invoke or self.options.is_repeat  # not called by a script
         if not attended:
             self.only_selected_uvs = follows_uv_selection(context)
-        result = unwrap_objects(context, target_objects(context), Options.of(self))
+        try:
+            result = unwrap_objects(context, target_objects(context), Options.of(self))
+        except OptionError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         last_result.keep(replace(result, seconds=result.seconds + self._seconds))
         self._seconds = 0.0
         if not (result.unwrapped or result.left or (attended and result.tried)):  # the redo panel offers what may help
@@ -103,7 +109,8 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
         for names in (("shape", *SHOWN[self.shape]), *SHOWN_FOR_ALL):
             column = layout.column()
             for name in names:
-                column.prop(self, name)
+                if name != "image_size" or self.margin_method == "PIXELS":
+                    column.prop(self, name)
             layout.separator(factor=0.5)
 
 

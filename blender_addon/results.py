@@ -138,8 +138,16 @@ class UnwrapResult:
         }
 
 
-def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
-    """What came of an object; `stored` are the UVs (k, 2) of its surface's corners, None where none were written."""
+def object_result(task: Task, stored: np.ndarray | None, corner: np.ndarray) -> ObjectResult:
+    """What came of an object.
+
+    Parameters
+    ----------
+    stored : (k, 2), optional
+        UVs of its surface's corners; None where none were written.
+    corner : (2,)
+        Of the tile that they were packed into.
+    """
     if task.solved is None:
         tried = task.surface is not None or task.mendable
         return ObjectResult(task.ob.name, task.layer, refusal=task.refusal, tried=tried, notes=task.notes)
@@ -162,7 +170,7 @@ def object_result(task: Task, stored: np.ndarray | None) -> ObjectResult:
         notes=task.notes + charts.notes(done) + _unconverged(int((~charts.converged[done]).sum())),
         flipped=len(charts.flipped(done)),
         lost_to_float32=int(lost),
-        measure=lambda: unwrap_numbers(task.solved, uv=stored, chosen=written),
+        measure=lambda: unwrap_numbers(task.solved, uv=None if stored is None else stored - corner, chosen=written),
     )
 
 

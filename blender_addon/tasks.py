@@ -13,7 +13,7 @@ from conformal_uv import Unwrapped
 
 from .edit_mode import active_vertex, settled_mesh
 from .kept_work import Surface
-from .mesh_io import MeshArrays, has_room, read_mesh, selected_uvs, uv_layer_name
+from .mesh_io import MeshArrays, has_room, holds_vectors, read_mesh, selected_uvs, uv_layer_name
 from .pins import HOW_TO_USE, NO_CORNERS, offered_pins, took_pins
 from .properties import Options
 from .subdivided import Subdivision, read_subdivided
@@ -165,6 +165,6 @@ def _refusal(ob: bpy.types.Object, mesh: bpy.types.Mesh, layer: str) -> str:
             "remove one or name one of them"
         )
     other = mesh.attributes.get(layer)
-    if other is not None and mesh.uv_layers.get(layer) is None:
-        return f"{layer!r} is an attribute that is no UV map; choose another name"
+    if other is not None and mesh.uv_layers.get(layer) is None and not holds_vectors(mesh, layer):
+        return f"{layer!r} is an attribute, but no vector of face corners; choose another name"
     return ""

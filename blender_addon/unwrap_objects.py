@@ -14,7 +14,7 @@ from .edit_mode import object_mode
 from .image_aspect import ROUND, aspect_scale
 from .kept_work import KEPT, KeptWork, Key
 from .mesh_io import write_uv
-from .packing import placed
+from .packing import placed, tile_corner
 from .properties import Options
 from .results import UnwrapResult, in_words_of_the_panel, object_result
 from .tasks import Task, gather
@@ -52,23 +52,30 @@ def solve(
 
 
 def unwrap_objects(context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options) -> UnwrapResult:
-    """Unwrap the objects' meshes as the options say; see the result for what could not be done."""
+    """Unwrap the objects' meshes as the options say; see the result for what could not be done.
+
+    Raises
+    ------
+    conformal_uv.OptionError
+        Before anything is done.
+    """
     start = time.perf_counter()
+    corner = tile_corner(options)
     tasks = gather(context, objects, options)
     KEPT.keep_only(solve(tasks, options, KEPT))
     done = [task for task in tasks if task.written.any()]
-    remarks: list[str] = []
+    middle = corner + 0.5
     together = context.mode == "EDIT_MESH" or options.place == "PACK"
     stored: dict[int, np.ndarray] = {}
     with object_mode(context):
         for group in [done] if together and done else [[task] for task in done]:
-            for task, uv in zip(group, placed(context, group, options, remarks), strict=True):
+            for task, uv in zip(group, placed(group, options), strict=True):
                 scale = aspect_scale(task.ob) if options.correct_aspect else ROUND
-                stored[id(task)] = uv if scale == ROUND else 0.5 + scale * (uv - 0.5)
+                stored[id(task)] = uv if scale == ROUND else middle + scale * (uv - middle)
         for task in done:
             _write(task, stored[id(task)])
-    results = [object_result(task, stored.get(id(task))) for task in tasks]
-    return UnwrapResult(results, time.perf_counter() - start, list(dict.fromkeys(remarks)))
+    results = [object_result(task, stored.get(id(task)), corner) for task in tasks]
+    return UnwrapResult(results, time.perf_counter() - start)
 
 
 def _write(task: Task, uv: np.ndarray) -> None:

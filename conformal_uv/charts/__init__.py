@@ -3,9 +3,11 @@
 from .chart import Chart
 from .chart_list import ChartList
 from .disk_islands import DiskIsland, disk_islands
+from .flattened import FlatMesh, flattened
 from .island_surface import IslandSurface, island_surface
 from .packing import Placement
 from .pin_drag import PinDrag
+from .repacked import pack_islands
 from .together import pack_together
 from .unwrap import unwrap
 from .unwrapped import Unwrapped
@@ -24,6 +26,9 @@ __all__ = [
     "Unwrapper",
     "disk_islands",
     "island_surface",
+    "FlatMesh",
+    "flattened",
+    "pack_islands",
     "pack_together",
     "unwrap",
     "uv_islands",

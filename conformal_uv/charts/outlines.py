@@ -47,6 +47,32 @@ class Outlines:
         point[self.corners] = scale[self.owner]
         return replace(self, z=self.z * point, low=self.low * scale, size=self.size * scale)
 
+    def positions(self) -> list[NDArray[np.complex128]]:
+        """Of each chart's triangles."""
+        return np.split(self.z[self.corners].T.reshape(-1), 3 * self._first_triangles()[1:])
+
+    def turned(self, angle: NDArray[np.float64]) -> Outlines:
+        """Each chart turned by radians (k,) about the origin of its plane."""
+        first = self._first_triangles()
+        z = np.zeros_like(self.z)
+        z[self.corners] = (self.z[self.corners] + self.low[self.owner]) * np.exp(1j * angle)[self.owner]
+        sides = z[self.corners]
+        low = np.minimum.reduceat(sides.real.min(axis=0), first) + 1j * np.minimum.reduceat(
+            sides.imag.min(axis=0), first
+        )
+        high = np.maximum.reduceat(sides.real.max(axis=0), first) + 1j * np.maximum.reduceat(
+            sides.imag.max(axis=0), first
+        )
+        z[self.corners] = sides - low[self.owner]
+        return replace(self, z=z, low=low, size=high - low)
+
+    def boxes(self) -> Outlines:
+        """The boxes around the charts."""
+        return replace(self.chosen(np.zeros(len(self), dtype=bool)).with_boxes(self.size), low=self.low)
+
+    def _first_triangles(self) -> NDArray[np.int64]:
+        return np.searchsorted(self.owner, np.arange(len(self)))
+
     def chosen(self, wanted: NDArray[np.bool_]) -> Outlines:
         """Some of the charts."""
         taken = wanted[self.owner]
