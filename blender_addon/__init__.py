@@ -5,9 +5,34 @@ All mathematics is in the package conformal_uv, which the extension brings as a 
 
 import bpy
 
-from . import command, last_result, menus, operators, panel, sphere
+from . import (
+    command,
+    keymaps,
+    last_result,
+    manual,
+    menus,
+    operators,
+    panel,
+    preferences,
+    presets,
+    sphere,
+    staleness,
+    translations,
+)
 
-MODULES = (operators, sphere, panel, menus, command)
+MODULES = (
+    translations,
+    operators,
+    sphere,
+    presets,
+    panel,
+    menus,
+    keymaps,
+    preferences,
+    staleness,
+    manual,
+    command,
+)
 
 
 @bpy.app.handlers.persistent

@@ -2,22 +2,14 @@
 
 import bpy
 
-from .operators import UV_OT_conformal_unwrap
+from .operators import UV_OT_conformal_unwrap_options, draw_unwraps
 from .sphere import OBJECT_OT_conformal_sphere
-
-UNWRAPS = (  # the commonest first
-    ("FREE", "Conformal Unwrap"),
-    ("DISK", "Conformal Disk Unwrap"),
-    ("RECTANGLE", "Conformal Rectangle Unwrap"),
-)
 
 
 def draw(self, context):
-    layout = self.layout
-    layout.operator_context = "INVOKE_DEFAULT"
-    layout.separator()
-    for shape, text in UNWRAPS:
-        layout.operator(UV_OT_conformal_unwrap.bl_idname, text=text).shape = shape
+    self.layout.separator()
+    draw_unwraps(self.layout)
+    self.layout.operator(UV_OT_conformal_unwrap_options.bl_idname, text="Conformal Unwrap with Options...")
 
 
 def draw_for_objects(self, context):

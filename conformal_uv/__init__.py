@@ -56,7 +56,14 @@ if TYPE_CHECKING:
     from .optimize import AugmentedLagrangianStep, NewtonStep
     from .progress import Callback
     from .rectangle import RectangleMap, rectangle_map
-    from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, flipped_polygons, unwrap_numbers
+    from .report import (
+        DistortionNumbers,
+        UnwrapNumbers,
+        distortion_numbers,
+        flipped_polygons,
+        polygon_angle_errors,
+        unwrap_numbers,
+    )
     from .shape_mapper import ShapeMapper
     from .sphere import SphereMap, equirectangular, octahedral, sphere_map
 
@@ -111,6 +118,7 @@ __all__ = [
     "mixed_voronoi_areas",
     "octahedral",
     "pack_together",
+    "polygon_angle_errors",
     "rectangle_map",
     "sphere_map",
     "triangulate",
@@ -169,6 +177,7 @@ _HOME = {
     "mixed_voronoi_areas": "operators",
     "octahedral": "sphere",
     "pack_together": "charts",
+    "polygon_angle_errors": "report",
     "rectangle_map": "rectangle",
     "sphere_map": "sphere",
     "triangulate": "mesh.triangulate",
