@@ -34,9 +34,11 @@ class Advice:
 
 
 def advice_for(result: UnwrapResult) -> list[Advice]:
-    """What to do about islands that failed and numbers that are poor; each piece of advice once."""
-    found = [piece for ob in result.objects for piece in _advice(ob, result.options)]
-    return list({(piece.action, piece.text): piece for piece in found}.values())
+    """What to do about islands that failed and numbers that are poor; each thing once, for its first reason."""
+    once: dict[object, Advice] = {}
+    for piece in (piece for ob in result.objects for piece in _advice(ob, result.options)):
+        once.setdefault((piece.action or piece.text, repr(piece.changes)), piece)
+    return list(once.values())
 
 
 def _advice(ob: ObjectResult, options: Options) -> list[Advice]:

@@ -128,9 +128,9 @@ class UV_OT_conformal_unwrap_options(bpy.types.Operator):
         return context.window_manager.invoke_props_dialog(self, width=360, confirm_text="Unwrap")
 
     def draw(self, context):
-        from .presets import draw_presets
+        from .presets import UV_PT_conformal_presets
 
-        draw_presets(self.layout, context)
+        UV_PT_conformal_presets.draw_menu(self.layout)
         draw_options(self.layout, chosen_options(context))
 
     def execute(self, context):

@@ -13,7 +13,7 @@ from .operators import (
     chosen_options,
 )
 from .options_layout import draw_options
-from .presets import draw_presets
+from .presets import UV_PT_conformal_presets
 from .words import shown, told
 from .worker import under_way
 
@@ -50,8 +50,10 @@ class _Options(_Sidebar):
     bl_label = "Options"
     bl_options = {"DEFAULT_CLOSED"}
 
+    def draw_header_preset(self, context):
+        UV_PT_conformal_presets.draw_panel_header(self.layout)
+
     def draw(self, context):
-        draw_presets(self.layout, context)
         draw_options(self.layout, chosen_options(context), with_shape=False)
 
 

@@ -1,25 +1,35 @@
 """Presets of the unwrap's options, the same files in the sidebar and the dialog as in the redo panel."""
 
+from pathlib import Path
+
 import bpy
 from bl_ui.utils import PresetPanel
 
 from .operators import UV_OT_conformal_unwrap, chosen_options
+from .properties import Options
 
-OPERATOR = UV_OT_conformal_unwrap.__name__
+SUBFOLDER = f"operator/{UV_OT_conformal_unwrap.bl_idname}"
 
 
 class UV_PT_conformal_presets(PresetPanel, bpy.types.Panel):
     """Options of the unwrap, kept by name"""
 
     bl_label = "Presets"
-    preset_subdir = f"operator/{UV_OT_conformal_unwrap.bl_idname}"
+    preset_subdir = SUBFOLDER
     preset_operator = "script.execute_preset"
     preset_add_operator = "uv.conformal_preset_add"
 
     def draw(self, context):
         """As Blender's popovers of presets, which set the properties of what they call the active operator."""
-        self.layout.context_pointer_set("active_operator", chosen_options(context))
-        super().draw(context)
+        layout = self.layout
+        layout.context_pointer_set("active_operator", chosen_options(context))
+        if bpy.utils.preset_paths(self.preset_subdir):
+            super().draw(context)
+            return
+        row = layout.row()  # before the first one there is no folder, which Blender would call missing
+        row.operator_context = "EXEC_DEFAULT"
+        row.prop(context.window_manager, "preset_name", text="")
+        row.operator(self.preset_add_operator, text="", icon="ADD").name = context.window_manager.preset_name
 
 
 class UV_OT_conformal_preset_add(bpy.types.Operator):
@@ -35,17 +45,31 @@ class UV_OT_conformal_preset_add(bpy.types.Operator):
     remove_active: bpy.props.BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     def execute(self, context):
-        with context.temp_override(active_operator=chosen_options(context)):
-            return bpy.ops.wm.operator_preset_add(
-                name=self.name, remove_name=self.remove_name, remove_active=self.remove_active, operator=OPERATOR
-            )
+        file = _file_of(self.name)
+        if file is None:
+            return {"CANCELLED"}
+        try:
+            if self.remove_name or self.remove_active:
+                file.unlink()
+            else:
+                _write(file, chosen_options(context))
+        except OSError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
 
 
-def draw_presets(layout, context):
-    """The popover of presets, in a row of its own."""
-    row = layout.row()
-    row.alignment = "RIGHT"
-    row.popover(UV_PT_conformal_presets.__name__, text="Presets", icon="PRESET")
+def _file_of(name):
+    """The user's file of a preset; None for a name that is none."""
+    stem = bpy.path.clean_name(name.strip())
+    folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{SUBFOLDER}", create=True)
+    return Path(folder) / f"{stem}.py" if stem.strip("_") and folder else None
+
+
+def _write(file, chosen):
+    """As Blender writes presets of operators, which its own way of doing so fails at on Python 3.13."""
+    lines = [f"op.{name} = {value!r}" for name, value in Options.of(chosen).as_arguments().items()]
+    file.write_text("\n".join(["import bpy", "op = bpy.context.active_operator", "", *lines, ""]), encoding="utf-8")
 
 
 CLASSES = (UV_OT_conformal_preset_add, UV_PT_conformal_presets)

@@ -6,6 +6,8 @@ import bpy
 
 from . import last_result
 
+SECONDS = 0.3  # from the last change until meshes are looked at
+
 
 @bpy.app.handlers.persistent
 def changed(scene, depsgraph):
@@ -18,6 +20,8 @@ def changed(scene, depsgraph):
         if update.is_updated_geometry and isinstance(update.id, bpy.types.Mesh):
             if update.id.original.session_uid in meshes:
                 last_result.set_stale(True)
+                if not bpy.app.timers.is_registered(_look_closer):
+                    bpy.app.timers.register(_look_closer, first_interval=SECONDS)
                 return
 
 
@@ -25,8 +29,19 @@ def changed(scene, depsgraph):
 def undone(*_):
     """After undo and redo the meshes themselves are looked at."""
     result = last_result.last()
-    if result is not None and not last_result.changing():
-        last_result.set_stale(not _holds(result))
+    if result is None or last_result.changing():
+        return
+    with last_result.own_change(bpy.context):  # Blender tells of what undo changed only after this
+        stale = not _holds(result)
+    last_result.set_stale(stale)
+
+
+def _look_closer():
+    """Blender also tells of changes where there are none, as on the way into Edit Mode."""
+    if any(len(window.modal_operators) for window in bpy.context.window_manager.windows):
+        return SECONDS  # vertices may be on their way
+    undone()
+    return None
 
 
 def _holds(result) -> bool:
