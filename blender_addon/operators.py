@@ -20,20 +20,23 @@ MANY_FACES = 50_000  # from here on the window gets a thread and a progress text
 def refusal(context: bpy.types.Context) -> str:
     """Why there is nothing to unwrap, empty where there is something."""
     if under_way():
-        return RUNNING
+        return told(RUNNING)
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Go to Object Mode or to Edit Mode of a mesh"
+        return told("Go to Object Mode or to Edit Mode of a mesh")
     if context.mode == "OBJECT" and not any(ob.type == "MESH" for ob in context.selected_editable_objects):
-        return "Select a mesh object"
+        return told("Select a mesh object")
     return missing_library()
 
 
 class UV_OT_conformal_unwrap(UnwrapProperties, InBackground, bpy.types.Operator):
-    """Unwrap each island of the selected faces, keeping angles.
-    Mark seams first; in Object Mode whole objects are unwrapped"""
+    """Islands of the selected faces mapped, angles kept"""
 
     bl_idname = "uv.conformal_unwrap"
     bl_label = "Conformal Unwrap"
+    bl_description = (
+        "Unwrap each island of the selected faces, keeping angles.\n"
+        "Mark seams first; in Object Mode a mesh without selected faces is unwrapped as a whole"
+    )
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     _solved = None  # what a thread has left in KEPT
@@ -110,11 +113,14 @@ class UV_OT_conformal_unwrap(UnwrapProperties, InBackground, bpy.types.Operator)
 
 
 class UV_OT_conformal_unwrap_options(bpy.types.Operator):
-    """Choose shape, presets and all other options, then unwrap.
-    The options are those of the sidebar, and stay for the next time"""
+    """The options of the next unwrap in a dialog"""
 
     bl_idname = "uv.conformal_unwrap_options"
     bl_label = "Conformal Unwrap with Options"
+    bl_description = (
+        "Choose shape, presets and all other options, then unwrap.\n"
+        "The options are those of the sidebar, and stay for the next time"
+    )
     bl_options = {"INTERNAL"}
 
     @classmethod
@@ -125,7 +131,7 @@ class UV_OT_conformal_unwrap_options(bpy.types.Operator):
         return not why
 
     def invoke(self, context, event):
-        return context.window_manager.invoke_props_dialog(self, width=360, confirm_text="Unwrap")
+        return context.window_manager.invoke_props_dialog(self, width=360, confirm_text=shown("Unwrap"))
 
     def draw(self, context):
         from .presets import UV_PT_conformal_presets
@@ -150,7 +156,7 @@ class _Selects:
 
     @classmethod
     def poll(cls, context):
-        why = "Go to Edit Mode" if context.mode != "EDIT_MESH" else missing_library()
+        why = told("Go to Edit Mode") if context.mode != "EDIT_MESH" else missing_library()
         if why:
             cls.poll_message_set(why)
         return not why
@@ -166,11 +172,14 @@ class _Selects:
 
 
 class UV_OT_conformal_select_folded(_Selects, bpy.types.Operator):
-    """Select visible faces whose UVs are inverted or have no area, in the active UV map.
-    Textures show mirrored or smeared there"""
+    """Faces whose UVs are inverted or have no area"""
 
     bl_idname = "uv.conformal_select_folded"
     bl_label = "Select Flipped or Collapsed"
+    bl_description = (
+        "Select visible faces whose UVs are inverted or have no area, in the active UV map.\n"
+        "Textures show mirrored or smeared there"
+    )
 
     def execute(self, context):
         from .folded import folded_faces
@@ -183,11 +192,14 @@ class UV_OT_conformal_select_folded(_Selects, bpy.types.Operator):
 
 
 class UV_OT_conformal_select_worst(_Selects, bpy.types.Operator):
-    """Select visible faces whose angles differ most from those in the active UV map.
-    Seams across them, or another shape, help most"""
+    """Faces of the largest angle errors"""
 
     bl_idname = "uv.conformal_select_worst"
     bl_label = "Select Most Distorted"
+    bl_description = (
+        "Select visible faces whose angles differ most from those in the active UV map.\n"
+        "Seams across them, or another shape, help most"
+    )
 
     by: bpy.props.EnumProperty(
         name="By",

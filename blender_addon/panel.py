@@ -76,7 +76,7 @@ class _Result(_Sidebar):
 def draw_result(layout, result, width):
     """Numbers of all objects, whether they still hold, and what to do where they are poor."""
     if last_result.stale():
-        draw_text(layout, told("Changed since: these numbers are of the map before"), width, "ERROR")
+        draw_text(layout, told("Changed since then: these numbers are of the map as it was"), width, "ERROR")
     text = told(
         "{done} of {count} islands, {seconds:.2f} s",
         done=result.unwrapped,

@@ -33,11 +33,13 @@ class UV_PT_conformal_presets(PresetPanel, bpy.types.Panel):
 
 
 class UV_OT_conformal_preset_add(bpy.types.Operator):
-    """Keep the options under a name, or remove the preset.
-    The redo panel's presets are the same"""
+    """A preset's file written or removed"""
 
     bl_idname = "uv.conformal_preset_add"
     bl_label = "Add or Remove Preset"
+    bl_description = (
+        "Keep the options under a name, or remove the preset.\nThe panel after an unwrap has the same presets"
+    )
     bl_options = {"INTERNAL"}
 
     name: bpy.props.StringProperty(name="Name", description="Of the preset", options={"SKIP_SAVE"})

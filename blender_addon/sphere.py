@@ -12,11 +12,14 @@ MANY_FACES = 10_000  # from here on the window gets a thread and a progress text
 
 
 class OBJECT_OT_conformal_sphere(InBackground, bpy.types.Operator):
-    """Add a shape key that turns each selected closed mesh into a sphere, keeping angles.
-    For closed meshes without handles; UVs are written on request"""
+    """A shape key that turns a closed mesh into its conformal sphere"""
 
     bl_idname = "object.conformal_sphere"
     bl_label = "Conformal Sphere Map"
+    bl_description = (
+        "Add a shape key that turns each selected closed mesh into a sphere, keeping angles.\n"
+        "For closed meshes without handles; UVs are written on request"
+    )
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     method: bpy.props.EnumProperty(
@@ -45,9 +48,11 @@ class OBJECT_OT_conformal_sphere(InBackground, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        why = RUNNING if under_way() else "Go to Object Mode" if context.mode != "OBJECT" else missing_library()
+        why = told(RUNNING) if under_way() else missing_library()
+        if not why and context.mode != "OBJECT":
+            why = told("Go to Object Mode")
         if not why and not any(ob.type == "MESH" for ob in context.selected_editable_objects):
-            why = "Select a mesh object"
+            why = told("Select a mesh object")
         if why:
             cls.poll_message_set(why)
         return not why

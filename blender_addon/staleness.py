@@ -38,7 +38,7 @@ def undone(*_):
 
 def _look_closer():
     """Blender also tells of changes where there are none, as on the way into Edit Mode."""
-    if any(len(window.modal_operators) for window in bpy.context.window_manager.windows):
+    if any(len(getattr(window, "modal_operators", ())) for window in bpy.context.window_manager.windows):
         return SECONDS  # vertices may be on their way
     undone()
     return None
@@ -73,5 +73,7 @@ def register():
 
 
 def unregister():
+    if bpy.app.timers.is_registered(_look_closer):
+        bpy.app.timers.unregister(_look_closer)
     for handlers, handler in HANDLERS:
         handlers.remove(handler)

@@ -136,8 +136,8 @@ def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) ->
             return Task(ob, layer, None, told("no UV is selected"))
     if not chosen.any():
         only_vertices = options.shape == "RECTANGLE" and len(arrays.alone) > 0
-        why = (ONLY_VERTICES if only_vertices else NO_FACE) if ob.mode == "EDIT" else NO_VISIBLE
-        return Task(ob, layer, None, told(why), mendable=only_vertices)
+        why = told((ONLY_VERTICES if only_vertices else NO_FACE) if ob.mode == "EDIT" else NO_VISIBLE)
+        return Task(ob, layer, None, why, mendable=only_vertices)
     active = active_vertex(ob) if options.takes_active else None
     if active is not None and not np.isin(active, arrays.corners[np.repeat(chosen, np.diff(arrays.starts))]):
         return Task(ob, layer, None, told("active vertex {vertex} belongs to no selected face", vertex=active))

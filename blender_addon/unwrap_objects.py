@@ -18,6 +18,7 @@ from .packing import placed
 from .properties import Options
 from .results import UnwrapResult, in_words_of_the_panel, object_result
 from .tasks import Task, gather
+from .words import told
 
 
 def solve(
@@ -98,7 +99,9 @@ def unwrap_objects(
             _write(task, stored[id(task)])
         prints = {id(task): fingerprint(task.ob.data, task.layer) for task in done}
     results = [object_result(task, stored.get(id(task)), prints.get(id(task), b"")) for task in tasks]
-    return UnwrapResult(results, time.perf_counter() - start, list(dict.fromkeys(remarks)), options)
+    return UnwrapResult(
+        results, time.perf_counter() - start, [told(remark) for remark in dict.fromkeys(remarks)], options
+    )
 
 
 def _write(task: Task, uv: np.ndarray) -> None:
