@@ -57,7 +57,7 @@ GERMAN = {
     "Repair Folds": "Falten glätten",
     "Rotation": "Drehung",
     "Schwarz": "Schwarz",
-    "Select Flipped or Collapsed": "Umgeklappte oder verschwundene auswählen",
+    "Select Flipped or Collapsed": "Umgeklappte oder leere auswählen",
     "Select Most Distorted": "Am stärksten verzerrte auswählen",
     "Select the Worst Faces": "Die schlechtesten Flächen auswählen",
     "Selected": "Ausgewählte",

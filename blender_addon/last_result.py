@@ -12,7 +12,7 @@ import bpy
 if TYPE_CHECKING:
     from .results import UnwrapResult
 
-PATIENCE = 0.05  # seconds that the window waits for numbers
+PATIENCE = 0.02  # seconds that the window waits for numbers
 SECONDS = 0.1  # between two looks for them
 
 _kept: list[UnwrapResult] = []
@@ -68,14 +68,22 @@ def own_change(context: bpy.types.Context) -> Iterator[None]:
     _state["own"] += 1
     try:
         yield
-        context.view_layer.update()  # Blender tells of changes only then
+        if bpy.app.background:
+            context.view_layer.update()  # Blender tells of changes only then
     finally:
-        _state["own"] -= 1
+        if bpy.app.background:
+            _own_change_told()
+        else:
+            bpy.app.timers.register(_own_change_told)  # in the next turn of the main loop, when it has told of them
 
 
 def changing() -> bool:
     """Whether the add-on itself is at work."""
     return _state["own"] > 0
+
+
+def _own_change_told() -> None:
+    _state["own"] -= 1
 
 
 def _look_again() -> float | None:
