@@ -52,7 +52,13 @@ def start_with(preferences, context):
 
 @bpy.app.handlers.persistent
 def start(*_):
-    """At start and in a new file; a script that gives an option, and one that gives none, are not concerned."""
+    """At start and in a new file. Blender forgets operators' last options only after it has told of the file."""
+    _start_now()
+    if not bpy.app.background:
+        bpy.app.timers.register(_start_now)
+
+
+def _start_now():
     addon = bpy.context.preferences.addons.get(__package__)
     if addon is not None and addon.preferences is not None:
         start_with(addon.preferences, bpy.context)
