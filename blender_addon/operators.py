@@ -166,9 +166,9 @@ class _Selects:
         from .face_selection import select_faces
 
         with last_result.own_change(context):
-            found = select_faces(context, faces_of)
-        context.tool_settings.mesh_select_mode = (False, False, True)
-        return found
+            # Before: among vertices, Edit Mode would take in every face whose corners are selected.
+            context.tool_settings.mesh_select_mode = (False, False, True)
+            return select_faces(context, faces_of)
 
 
 class UV_OT_conformal_select_folded(_Selects, bpy.types.Operator):
