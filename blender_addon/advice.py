@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from .words import counted, told
+from .choices import LABELS
+from .words import counted, shown, told
 
 if TYPE_CHECKING:
     from .properties import Options
@@ -43,7 +44,7 @@ def advice_for(result: UnwrapResult) -> list[Advice]:
 
 def _advice(ob: ObjectResult, options: Options) -> list[Advice]:
     found = [
-        Advice(told("Islands that failed can be unwrapped with other options"), told("Unwrap So"), changes)
+        Advice(told("Islands that failed can be unwrapped with another option"), _named(changes), changes)
         for changes in _distinct([failure.changes for failure in ob.failures])
     ]
     quality = ob.quality
@@ -79,6 +80,14 @@ def _poor_areas(ratio: float, options: Options) -> Advice:
         )
         return Advice(text, told("Use Free"), {"shape": "FREE"})
     return Advice(told("Areas change up to {ratio:.0f} times: cut long limbs off by seams", ratio=ratio))
+
+
+def _named(changes: dict[str, Any]) -> str:
+    names = {"fill_holes": shown("Fill Holes")}
+    for option, (label, values) in LABELS.items():
+        if option in changes:
+            names[option] = f"{shown(label)}: {shown(values[changes[option]])}"
+    return ", ".join(names[option] for option in changes)
 
 
 def _distinct(dicts: list[dict[str, Any]]) -> list[dict[str, Any]]:

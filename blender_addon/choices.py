@@ -89,3 +89,8 @@ FACES = (
     ),
     ("ALL", "All Visible", "All visible faces"),
 )
+
+LABELS = {  # of options that the library proposes: what the panel calls them and their values
+    "closed": ("Closed Surfaces", {identifier: name for identifier, name, _ in CLOSED}),
+    "method": ("Method", {identifier: name for identifier, name, _ in METHODS}),
+}

@@ -71,7 +71,6 @@ GERMAN = {
     "UV Map": "UV-Karte",
     "UVs": "UVs",
     "Unwrap": "Abwickeln",
-    "Unwrap So": "So abwickeln",
     "Upright": "Aufrecht",
     "Use Free": "Frei abwickeln",
     "Use Pins": "Angeheftete nutzen",
@@ -283,8 +282,8 @@ GERMAN = {
     "Go to Object Mode or to Edit Mode of a mesh": (
         "In den Objektmodus oder in den Bearbeitungsmodus eines Netzes wechseln"
     ),
-    "Islands that failed can be unwrapped with other options": (
-        "Misslungene Inseln können mit anderen Optionen abgewickelt werden"
+    "Islands that failed can be unwrapped with another option": (
+        "Misslungene Inseln können mit einer anderen Option abgewickelt werden"
     ),
     "Mapped {done} of {count} mesh to a sphere": "{done} von {count} Netz auf eine Kugel abgebildet",
     "Mapped {done} of {count} meshes to spheres": "{done} von {count} Netzen auf Kugeln abgebildet",
@@ -389,6 +388,7 @@ GERMAN = {
         "{count} Dreiecke sind zu klein für die einfache Genauigkeit der UVs; die Insel durch Nähte teilen"
     ),
     "{done} of {count}": "{done} von {count}",
+    "{done} of {count} island, {seconds:.2f} s": "{done} von {count} Insel, {seconds:.2f} s",
     "{done} of {count} islands, {seconds:.2f} s": "{done} von {count} Inseln, {seconds:.2f} s",
     "{name!r} is an attribute that is no UV map; choose another name": (
         "{name!r} ist ein Attribut, das keine UV-Karte ist; einen anderen Namen wählen"

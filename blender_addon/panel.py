@@ -14,11 +14,11 @@ from .operators import (
 )
 from .options_layout import draw_options
 from .presets import UV_PT_conformal_presets
-from .words import shown, told
+from .words import counted, shown, told
 from .worker import under_way
 
 MOST_OBJECTS = 8
-LINE = 0.13  # characters of a line for a pixel of the sidebar's width, about
+LINE = 0.11  # characters of a line for a pixel of the sidebar's width, about
 
 
 class _Sidebar:
@@ -77,17 +77,18 @@ def draw_result(layout, result, width):
     """Numbers of all objects, whether they still hold, and what to do where they are poor."""
     if last_result.stale():
         draw_text(layout, told("Changed since then: these numbers are of the map as it was"), width, "ERROR")
-    text = told(
+    text = counted(
+        result.islands,
+        "{done} of {count} island, {seconds:.2f} s",
         "{done} of {count} islands, {seconds:.2f} s",
         done=result.unwrapped,
-        count=result.islands,
         seconds=result.seconds,
     )
     layout.label(text=text)
     numbers = layout.column()
     numbers.active = not last_result.stale()
     for ob in result.objects[:MOST_OBJECTS]:
-        draw_object(numbers.box(), ob)
+        draw_object(numbers.box(), ob, width)
     if len(result.objects) > MOST_OBJECTS:
         numbers.label(text=told("and {count} more", count=len(result.objects) - MOST_OBJECTS))
     if not last_result.stale():
@@ -119,11 +120,11 @@ def draw_text(layout, text, width, icon):
         column.label(text=line, icon="BLANK1" if number else icon)
 
 
-def draw_object(layout, ob):
+def draw_object(layout, ob, width):
     """Rows of name and number."""
     layout.label(text=ob.name, icon="MESH_DATA")
     if ob.refusal:
-        layout.label(text=ob.refusal, icon="ERROR")
+        draw_text(layout, ob.refusal, width, "ERROR")
         return
     column = layout.column(align=True)
     for name, value in rows(ob):
@@ -131,7 +132,7 @@ def draw_object(layout, ob):
         split.label(text=name)
         split.label(text=value)
     for failure in ob.failures[:MOST_OBJECTS]:
-        column.label(text=told("Face {face}: {why}", face=failure.faces[0], why=failure.why), icon="ERROR")
+        draw_text(column, told("Face {face}: {why}", face=failure.faces[0], why=failure.why), width, "ERROR")
 
 
 def rows(ob):

@@ -12,7 +12,7 @@ import numpy as np
 
 from conformal_uv import ConformalUVError, DistortionNumbers, Remedy, UnwrapNumbers, unwrap_numbers
 
-from .choices import CLOSED, METHODS
+from .choices import LABELS
 from .properties import Options
 from .tasks import Task
 from .words import as_blender_says, counted, shown, told
@@ -239,12 +239,6 @@ def _unconverged(count: int) -> list[str]:
 def _some(faces: list[int]) -> str:
     text = ", ".join(str(face) for face in faces[:MOST_FACES])
     return text if len(faces) <= MOST_FACES else f"{text} ..."
-
-
-LABELS = {
-    "closed": ("Closed Surfaces", {identifier: name for identifier, name, _ in CLOSED}),
-    "method": ("Method", {identifier: name for identifier, name, _ in METHODS}),
-}
 
 
 def in_words_of_the_panel(error: ConformalUVError) -> str:
