@@ -76,10 +76,10 @@ def _poor_angles(mean: float, options: Options) -> Advice:
 def _poor_areas(ratio: float, options: Options) -> Advice:
     if options.shape != "FREE":
         text = told(
-            "Areas change up to {ratio:.0f} times: let islands keep their own outline, or cut them", ratio=ratio
+            "Areas change up to {ratio:.3g} times: let islands keep their own outline, or cut them", ratio=ratio
         )
         return Advice(text, told("Use Free"), {"shape": "FREE"})
-    return Advice(told("Areas change up to {ratio:.0f} times: cut long limbs off by seams", ratio=ratio))
+    return Advice(told("Areas change up to {ratio:.3g} times: cut long limbs off by seams", ratio=ratio))
 
 
 def _named(changes: dict[str, Any]) -> str:

@@ -258,11 +258,11 @@ GERMAN = {
         "Welche Flächen abgewickelt werden.\nAlle sichtbaren erspart das Auswählen"
     ),
     # Reports
-    "Areas change up to {ratio:.0f} times: cut long limbs off by seams": (
-        "Flächeninhalte ändern sich bis zu {ratio:.0f}-fach: lange Glieder durch Nähte abtrennen"
+    "Areas change up to {ratio:.3g} times: cut long limbs off by seams": (
+        "Flächeninhalte ändern sich bis zu {ratio:.3g}-fach: lange Glieder durch Nähte abtrennen"
     ),
-    "Areas change up to {ratio:.0f} times: let islands keep their own outline, or cut them": (
-        "Flächeninhalte ändern sich bis zu {ratio:.0f}-fach: Inseln ihren eigenen Umriss lassen oder sie aufschneiden"
+    "Areas change up to {ratio:.3g} times: let islands keep their own outline, or cut them": (
+        "Flächeninhalte ändern sich bis zu {ratio:.3g}-fach: Inseln ihren eigenen Umriss lassen oder sie aufschneiden"
     ),
     "Blender's Python {version} has no {name}: install the extension's zip for this platform, or your distribution's "
     "package of {name}": (
@@ -353,8 +353,8 @@ GERMAN = {
     "the mesh is linked from another file; make it local first": (
         "das Netz ist aus einer anderen Datei verknüpft; es zuerst lokal machen"
     ),
-    "the scale is not uniform, and the mesh is unwrapped without it; apply it first (Ctrl A)": (
-        "die Skalierung ist nicht gleichmäßig, und das Netz wird ohne sie abgewickelt; sie zuerst anwenden (Strg A)"
+    "the scale is not uniform, and the mesh is mapped without it; apply it first (Ctrl A)": (
+        "die Skalierung ist nicht gleichmäßig, und das Netz wird ohne sie abgebildet; sie zuerst anwenden (Strg A)"
     ),
     "there is no UV map {name!r} and no room for it: Blender keeps eight UV maps in a mesh; remove one or name one "
     "of them": (

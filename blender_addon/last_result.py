@@ -46,7 +46,9 @@ def measured() -> bool:
 
 def stale() -> bool:
     """Whether its meshes or UVs were changed since, or are gone."""
-    return _state["stale"]
+    result = last()
+    gone = result is not None and any(ob.name not in bpy.data.objects for ob in result.objects)
+    return gone or _state["stale"]
 
 
 def set_stale(stale: bool) -> None:
@@ -74,7 +76,8 @@ def own_change(context: bpy.types.Context) -> Iterator[None]:
         if bpy.app.background:
             _own_change_told()
         else:
-            bpy.app.timers.register(_own_change_told)  # in the next turn of the main loop, when it has told of them
+            # In the next turn of the main loop, when Blender has told of them.
+            bpy.app.timers.register(_own_change_told, persistent=True)
 
 
 def changing() -> bool:

@@ -55,7 +55,7 @@ def start(*_):
     """At start and in a new file. Blender forgets operators' last options only after it has told of the file."""
     _start_now()
     if not bpy.app.background:
-        bpy.app.timers.register(_start_now)
+        bpy.app.timers.register(_start_now, persistent=True)
 
 
 def _start_now():

@@ -26,7 +26,7 @@ ONLY_VERTICES = (
     "no visible face is selected; turn on Use Pins where selected vertices are to be corners of all visible faces' "
     "islands"
 )
-UNEVEN = "the scale is not uniform, and the mesh is unwrapped without it; apply it first (Ctrl A)"
+UNEVEN = "the scale is not uniform, and the mesh is mapped without it; apply it first (Ctrl A)"
 SCALES_ALIKE = 1e-4  # of the largest one, as Blender's own unwrap takes them
 
 

@@ -126,7 +126,7 @@ def test_flipped_polygons_by_exact_signs() -> None:
 
 
 def test_polygon_angle_errors_by_the_arc_cosine():
-    """Triangles by their angles; a quad as the worse of the triangles that it is cut into; a mirror image as its own."""
+    """Triangles by their angles; a quad as the worse of its triangles; a mirror image as what it mirrors."""
     rng = np.random.default_rng(3)
     V, uv = rng.normal(size=(30, 3)), rng.normal(size=(30, 2))
     mesh = cuv.PolygonMesh(V, np.arange(30), np.arange(0, 31, 3))

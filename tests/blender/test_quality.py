@@ -127,6 +127,8 @@ def test_numbers_go_stale(addon, part):
     assert addon.last_result.stale()
     bpy.ops.uv.conformal_unwrap()
     assert not addon.last_result.stale()
+    bpy.data.objects.remove(ob)
+    assert addon.last_result.stale()
 
 
 def test_selecting_faces_makes_nothing_stale(addon, part):
