@@ -8,12 +8,24 @@ def items(told):
     return tuple((choice.name, label, description) for choice, (label, description) in told.items())
 
 
-SHAPES = items(
+SHAPES = items(  # the commonest first, here and in menus
     {
-        Shape.DISK: ("Disk", "The unit disk: a round boundary"),
-        Shape.FREE: ("Free", "Its own outline, as long as on the surface; what can be unrolled keeps its lengths too"),
-        Shape.RECTANGLE: ("Rectangle", "A rectangle of the proportions that keep angles: straight sides, for strips"),
+        Shape.FREE: (
+            "Free",
+            "Islands keep their own outline, as long as on the surface: for most meshes; what can be unrolled keeps "
+            "its lengths too",
+        ),
+        Shape.DISK: ("Disk", "Islands become round: for maps that are compared or composed with others on the disk"),
+        Shape.RECTANGLE: (
+            "Rectangle",
+            "Islands become rectangles of the proportions that keep angles: for strips, panels and tiles",
+        ),
     }
+)
+UNWRAPS = (  # menu entries: every shape, by its identifier
+    (Shape.FREE.name, "Conformal Unwrap"),
+    (Shape.DISK.name, "Conformal Disk Unwrap"),
+    (Shape.RECTANGLE.name, "Conformal Rectangle Unwrap"),
 )
 UPRIGHT = items(
     {
@@ -101,3 +113,8 @@ FACES = (
     ),
     ("ALL", "All Visible", "All visible faces"),
 )
+
+LABELS = {  # of options that the library proposes: what the panel calls them and their values
+    "closed": ("Closed Surfaces", {identifier: name for identifier, name, _ in CLOSED}),
+    "method": ("Method", {identifier: name for identifier, name, _ in METHODS}),
+}

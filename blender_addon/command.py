@@ -112,6 +112,9 @@ def forget_work():
     kept_work = sys.modules.get(f"{__package__}.kept_work")
     if kept_work is not None:
         kept_work.KEPT.keep_only(set())
+    spheres = sys.modules.get(f"{__package__}.spheres")
+    if spheres is not None:
+        spheres.forget()
 
 
 def _objects(names, collections):

@@ -3,25 +3,18 @@
 import bpy
 
 from .flatten import OBJECT_OT_conformal_flatten
-from .operators import UV_OT_conformal_unwrap
+from .operators import UV_OT_conformal_unwrap_options, draw_unwraps
 from .overlay import VIEW3D_OT_conformal_overlay
 from .pack_operator import UV_OT_conformal_pack
 from .sphere import OBJECT_OT_conformal_sphere
 
-UNWRAPS = (  # the commonest first
-    ("FREE", "Conformal Unwrap"),
-    ("DISK", "Conformal Disk Unwrap"),
-    ("RECTANGLE", "Conformal Rectangle Unwrap"),
-)
 OVERLAYS = (("ANGLE", "Conformal: Show Angles"), ("AREA", "Conformal: Show Areas"), ("NONE", "Conformal: Show Nothing"))
 
 
 def draw(self, context):
-    layout = self.layout
-    layout.operator_context = "INVOKE_DEFAULT"
-    layout.separator()
-    for shape, text in UNWRAPS:
-        layout.operator(UV_OT_conformal_unwrap.bl_idname, text=text).shape = shape
+    self.layout.separator()
+    draw_unwraps(self.layout)
+    self.layout.operator(UV_OT_conformal_unwrap_options.bl_idname, text="Conformal Unwrap with Options...")
 
 
 def draw_for_objects(self, context):

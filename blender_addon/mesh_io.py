@@ -60,6 +60,20 @@ class MeshArrays:
         return hashed.digest()
 
 
+def fingerprint(mesh: bpy.types.Mesh, uv_layer: str) -> bytes:
+    """Of what a map's numbers depend on: positions, corners and UVs of a mesh that is not in Edit Mode."""
+    k = len(mesh.loops)
+    hashed = blake2b(str(len(mesh.polygons)).encode(), digest_size=20)
+    for array in (
+        _attribute(mesh, "position", "vector", np.float32, len(mesh.vertices), 3),
+        _attribute(mesh, ".corner_vert", "value", np.int32, k),
+        read_uv(mesh, uv_layer),
+    ):
+        hashed.update(str(array.shape).encode())
+        hashed.update(np.ascontiguousarray(array).data)
+    return hashed.digest()
+
+
 def read_mesh(mesh: bpy.types.Mesh, uv_layer: str) -> MeshArrays:
     """The arrays of a mesh that is not in Edit Mode.
 

@@ -63,6 +63,10 @@ class Options(PackOptions):
     uv_layer: str = ""
     only_selected_uvs: bool = False
 
+    def as_arguments(self) -> dict[str, object]:
+        """Keywords for the operator; what it finds out by itself is left out."""
+        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "only_selected_uvs"}
+
     @property
     def takes_pins(self) -> bool:
         """Whether pins mean something; a free boundary has none."""
@@ -152,73 +156,99 @@ class PackProperties:
 class UnwrapProperties(PackProperties):
     """Properties of the operator, named as Blender's own unwrap names them where it has them."""
 
-    shape: EnumProperty(name="Shape", description="What islands become", items=SHAPES, default=DEFAULTS.shape)
-    method: EnumProperty(name="Method", description="How the map is computed", items=METHODS, default=DEFAULTS.method)
+    shape: EnumProperty(
+        name="Shape",
+        description="What islands become.\nFree for most meshes, Disk for round islands, Rectangle for strips",
+        items=SHAPES,
+        default=DEFAULTS.shape,
+    )
+    method: EnumProperty(
+        name="Method",
+        description="How the map is computed.\nAutomatic unless time or a comparison matters",
+        items=METHODS,
+        default=DEFAULTS.method,
+    )
     fill_holes: BoolProperty(
         name="Fill Holes",
-        description="Close all boundaries of an island but its longest for the solution; else such islands are refused",
+        description="Close all boundaries of an island but its longest for the solution.\n"
+        "Off: islands with holes are refused",
         default=DEFAULTS.fill_holes,
     )
     correct_aspect: BoolProperty(
         name="Correct Aspect",
-        description="Keep angles on the image of the active face's material, though it be not square",
+        description="Keep angles on the image of the active face's material.\nFor textures that are not square",
         default=DEFAULTS.correct_aspect,
     )
     use_subsurf_data: BoolProperty(
         name="Use Subdivision Surface",
-        description="Map the surface as the Subdivision Surface modifier makes it",
+        description="Map the surface as the Subdivision Surface modifier makes it.\n"
+        "When the subdivided object is what gets the texture",
         default=DEFAULTS.use_subsurf_data,
     )
     use_pins: BoolProperty(
         name="Use Pins",
-        description="Disks: send three pinned UVs on the boundary of an island to three equally spaced points of the "
-        "circle. Rectangles: four pinned UVs on the boundary are the corners; of a mesh without pins four selected "
-        "vertices, of which no face is selected",
+        description="Disks: three pinned UVs on an island's boundary go to three equally spaced points of the circle.\n"
+        "Rectangles: four pinned UVs on the boundary are the corners; of a mesh without pins four selected vertices, "
+        "while no face is selected",
         default=DEFAULTS.use_pins,
     )
     corner_choice: EnumProperty(
         name="Corners",
-        description="What the corners of a rectangle are where no pins give them",
+        description="What the corners of a rectangle are.\nWhere no pins give them",
         items=CORNER_CHOICES,
         default=DEFAULTS.corner_choice,
     )
     refine: BoolProperty(
         name="Refine",
-        description="Move all vertices for the last percents of angle error, and never make it worse; takes longer",
+        description="Move all vertices for the last percents of angle error, never to the worse.\n"
+        "For final maps: takes about four times as long",
         default=DEFAULTS.refine,
     )
     center: EnumProperty(
-        name="Center", description="What comes to the middle of the disk", items=CENTERS, default=DEFAULTS.center
+        name="Center",
+        description="What comes to the middle of the disk.\nArea Balance where parts come out too small",
+        items=CENTERS,
+        default=DEFAULTS.center,
     )
     upright: EnumProperty(
         name="Upright",
-        description="Turn every island so that up on the surface is up in the texture; disks with pins are not turned",
+        description="Turn every island so that up on the surface is up in the texture.\nDisks with pins are not turned",
         items=UPRIGHT,
         default=DEFAULTS.upright,
     )
     rotation: FloatProperty(
         name="Rotation",
-        description="Turn every island about its center, at the end",
+        description="Turn every island about its center.\nAfter all else, Upright too",
         subtype="ANGLE",
         default=DEFAULTS.rotation,
     )
     repair: BoolProperty(
-        name="Repair Folds", description="Unfold faces that came out inverted", default=DEFAULTS.repair
+        name="Repair Folds",
+        description="Unfold faces that came out inverted.\nOff: they stay, and are counted",
+        default=DEFAULTS.repair,
     )
     closed: EnumProperty(
         name="Closed Surfaces",
-        description="What to do with islands that have no boundary, or handles",
+        description="What to do with islands that have no boundary, or handles.\nCut where seams are too much work",
         items=CLOSED,
         default=DEFAULTS.closed,
     )
     place: EnumProperty(
-        name="Place", description="Where islands go in the texture", items=PLACES, default=DEFAULTS.place
+        name="Place",
+        description="Where islands go in the texture.\nKeep Size and Pack where they share a density",
+        items=PLACES,
+        default=DEFAULTS.place,
     )
-    faces: EnumProperty(name="Faces", description="Which faces are unwrapped", items=FACES, default=DEFAULTS.faces)
+    faces: EnumProperty(
+        name="Faces",
+        description="Which faces are unwrapped.\nAll Visible spares selecting them",
+        items=FACES,
+        default=DEFAULTS.faces,
+    )
     uv_layer: StringProperty(
         name="UV Map",
-        description="UV map, or vector attribute of face corners, to write; a UV map is made when missing. Empty: the "
-        "active one",
+        description="UV map, or vector attribute of face corners, to write; a UV map is made when missing.\n"
+        "Empty: the active one",
         default=DEFAULTS.uv_layer,
     )
     only_selected_uvs: BoolProperty(

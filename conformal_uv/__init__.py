@@ -70,7 +70,14 @@ if TYPE_CHECKING:
     from .optimize import AugmentedLagrangianStep, NewtonStep
     from .progress import Callback
     from .rectangle import RectangleMap, rectangle_map
-    from .report import DistortionNumbers, UnwrapNumbers, distortion_numbers, flipped_polygons, unwrap_numbers
+    from .report import (
+        DistortionNumbers,
+        UnwrapNumbers,
+        distortion_numbers,
+        flipped_polygons,
+        polygon_angle_errors,
+        unwrap_numbers,
+    )
     from .shape_mapper import ShapeMapper
     from .sphere import (
         SphereMap,
@@ -151,6 +158,7 @@ __all__ = [
     "pinned_map",
     "pack_islands",
     "polygon_distortion",
+    "polygon_angle_errors",
     "rectangle_map",
     "sphere_map",
     "stored_sphere",
@@ -229,6 +237,7 @@ _HOME = {
     "pinned_map": "free",
     "pack_islands": "charts",
     "polygon_distortion": "operators",
+    "polygon_angle_errors": "report",
     "rectangle_map": "rectangle",
     "sphere_map": "sphere",
     "stored_sphere": "sphere",

@@ -146,7 +146,7 @@ def test_every_bad_mesh_is_named(addon):
     assert result.message.startswith("Unwrapped 5 of 6 islands of 5 objects; ")
     for part in ("Nowhere, faces", "NaN", "Wire: the mesh has no faces"):
         assert part in result.message
-    assert result.remarks == ["Fin: cut along 1 edges of three or more faces"]  # as Blender's own unwrap does
+    assert result.remarks == ["Fin: cut along 1 edge of three or more faces"]  # as Blender's own unwrap does
     assert "pass " not in result.message and '="' not in result.message
 
 
