@@ -17,17 +17,24 @@ from scipy.fft import irfft, rfft
 from ..operators.dirichlet import DirichletProblem
 from ..operators.neumann_strip import SHORT
 
-__all__ = ["FourierPreconditioner", "StripPreconditioner", "preconditioner"]
+__all__ = ["FourierPreconditioner", "Preconditioner", "StripPreconditioner", "preconditioner", "smooth_preconditioner"]
 
 Real = NDArray[np.float64]
+
+Preconditioner = Callable[[Real], Real]
 
 LONG_WAVES = 16  # where k - 1 is no more nearly k
 
 
-def preconditioner(problem: DirichletProblem, theta: Real) -> Callable[[Real], Real]:
+def preconditioner(problem: DirichletProblem, theta: Real) -> Preconditioner:
     """The one for this boundary at these angles (nb,)."""
     nb = len(problem.boundary)
     return FourierPreconditioner(nb) if nb <= SHORT else StripPreconditioner(problem, theta)
+
+
+def smooth_preconditioner(problem: DirichletProblem, theta: Real) -> Preconditioner:
+    """One that knows the boundary's length only, on any boundary: directions come out smooth along it."""
+    return FourierPreconditioner(len(theta))
 
 
 class StripPreconditioner:
