@@ -14,7 +14,7 @@ from .outlines import Outlines, chart_outlines, disk_outlines
 from .spacing import spacing_of
 from .square_packing import pack_outlines
 
-__all__ = ["Placement", "Placements", "pack_charts", "pack_disks", "placements"]
+__all__ = ["ChartShape", "Placement", "Placements", "pack_charts", "pack_disks", "placements"]
 
 Real = NDArray[np.float64]
 ChartShape = tuple[NDArray[np.complex128], NDArray[np.integer]]
@@ -80,7 +80,7 @@ def placements(
     options: PlaceOptions,
     area: Real,
     image_area: Real,
-    charts: Sequence[ChartShape] | None = None,
+    charts: Sequence[ChartShape] | Outlines | None = None,
 ) -> Placements:
     """A placement for each mapped chart.
 
@@ -92,11 +92,11 @@ def placements(
         Of its image in its own plane. When charts are packed, scales are such that the ratio of the image's area
         to the surface's is the same for all.
     charts : sequence of positions (n,) complex and triangles (3, m), optional
-        The charts in their planes; unit disks where none are given.
+        Or their outlines: the charts in their planes; unit disks where none are given.
     """
     if options.place is Place.DISK or not len(area):
         return Placements.untouched(len(area))
-    outlines = disk_outlines(np.ones(len(area))) if charts is None else chart_outlines(charts)
+    outlines = disk_outlines(np.ones(len(area))) if charts is None else _outlines(charts)
     full = np.pi if charts is None else outlines.size.real * outlines.size.imag
     least = np.maximum(image_area, LEAST_FILL * full)
     scale = np.sqrt(np.divide(area, least, out=np.zeros(len(area)), where=least > 0.0))
@@ -108,7 +108,7 @@ def placements(
     return Placements(found.center, scale * found.scale, found.angle)
 
 
-def pack_charts(charts: Sequence[ChartShape], options: PlaceOptions | None = None) -> Placements:
+def pack_charts(charts: Sequence[ChartShape] | Outlines, options: PlaceOptions | None = None) -> Placements:
     """Places of charts in the unit square, one scale for all; they do not overlap.
 
     Parameters
@@ -119,7 +119,11 @@ def pack_charts(charts: Sequence[ChartShape], options: PlaceOptions | None = Non
     """
     if not len(charts):
         return Placements.untouched(0)
-    return _in_square(chart_outlines(charts), options or PlaceOptions())
+    return _in_square(_outlines(charts), options or PlaceOptions())
+
+
+def _outlines(charts: Sequence[ChartShape] | Outlines) -> Outlines:
+    return charts if isinstance(charts, Outlines) else chart_outlines(charts)
 
 
 def pack_disks(radius: Real, margin: float) -> tuple[Real, float]:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.polygons import PolygonMesh
 from ..mesh.triangulate import triangulate
 from ..options import PlaceOptions
+from .outlines import joint_outlines
 from .packing import pack_charts
 from .uv_islands import uv_islands
 
@@ -70,16 +71,13 @@ def pack_islands(
     triangles, face, _ = triangulate(flat)
     packed = island[face] >= 0
     triangles, owner = triangles[packed], island[face][packed]
-    order = np.argsort(owner, kind="stable")
-    triangles, owner = triangles[order], owner[order]
     z = np.ascontiguousarray(flat.V[:, :2]).view(np.complex128).reshape(-1)
     if average_scale:
         z = z * _scales(mesh, flat, triangles, owner)[island[np.repeat(np.arange(len(mesh.sizes)), mesh.sizes)]]
-    groups = np.split(triangles, np.flatnonzero(np.diff(owner)) + 1) if len(owner) else []
-    named = [np.unique(group, return_inverse=True) for group in groups]
-    shapes = [(z[own], inverse.reshape(-1, 3).T) for own, inverse in named]
     corner = np.flatnonzero(np.repeat(island, mesh.sizes) >= 0)
-    moved = pack_charts(shapes, where).placed(z[corner], np.repeat(island, mesh.sizes)[corner])
+    moved = pack_charts(joint_outlines(z, triangles.T, owner) if len(owner) else [], where).placed(
+        z[corner], np.repeat(island, mesh.sizes)[corner]
+    )
     uv[corner] = np.ascontiguousarray(moved).view(np.float64).reshape(-1, 2)
     return np.split(uv, np.cumsum([len(one.corners) for one in meshes])[:-1])
 

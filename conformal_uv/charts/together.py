@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..options import PlaceOptions
 from .chart_list import ChartList
-from .outlines import unit_disk
-from .packing import Placements, placements
+from .outlines import Outlines, joint_outlines, unit_disk
+from .packing import ChartShape, Placements, placements
 from .unwrapped import Unwrapped
 
 __all__ = ["pack_together"]
@@ -58,13 +58,7 @@ def pack_together(
     area = np.concatenate([charts.surface_areas()[own] for charts, own in zip(lists, taken, strict=True)])
     largest = 1.0 if where.keep_scale else float(area.max(initial=0.0))
     image = [charts.image_areas(result.uv)[own] for result, charts, own in zip(results, lists, taken, strict=True)]
-    shapes = None
-    if not all(charts.solutions.is_disk[own].all() for charts, own in zip(lists, taken, strict=True)):
-        shapes = [
-            _shape(charts, number, result.uv)
-            for result, charts, own in zip(results, lists, taken, strict=True)
-            for number in own.tolist()
-        ]
+    shapes = _shapes(results, taken)
     placed = placements(where, area / largest if largest > 0.0 else area, np.concatenate(image), shapes)
     out, first = [], 0
     for result, charts, own in zip(results, lists, taken, strict=True):
@@ -82,7 +76,30 @@ def pack_together(
     return out
 
 
-def _shape(charts: ChartList, number: int, uv: NDArray[np.float64]) -> tuple[NDArray[np.complex128], NDArray[np.int64]]:
+def _shapes(results: Sequence[Unwrapped], taken: list[NDArray[np.int64]]) -> Outlines | list[ChartShape] | None:
+    """What covers some charts of each result; None where all are disks."""
+    disks = np.concatenate([one.charts.solutions.is_disk[own] for one, own in zip(results, taken, strict=True)])
+    if disks.all():
+        return None
+    if disks.any():
+        return [
+            _shape(one.charts, number, one.uv)
+            for one, own in zip(results, taken, strict=True)
+            for number in own.tolist()
+        ]
+    corners, owners, first, before = [], [], 0, 0
+    for one, own in zip(results, taken, strict=True):
+        number = np.full(len(one.charts), -1)
+        number[own] = before + np.arange(len(own))
+        owner = number[one.charts.chart_of_triangle]
+        corners.append(one.charts.corner[owner >= 0].T + first)
+        owners.append(owner[owner >= 0])
+        first, before = first + len(one.uv), before + len(own)
+    uv = np.ascontiguousarray(np.concatenate([one.uv for one in results]))
+    return joint_outlines(uv.view(np.complex128).reshape(-1), np.concatenate(corners, axis=1), np.concatenate(owners))
+
+
+def _shape(charts: ChartList, number: int, uv: NDArray[np.float64]) -> ChartShape:
     """Positions and triangles that cover the chart: those of the whole disk, or its own."""
     if charts.solutions.is_disk[number]:
         return unit_disk()

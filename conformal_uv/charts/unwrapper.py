@@ -22,15 +22,14 @@ from .chart_progress import PLACING, SPLITTING, ChartProgress
 from .chart_solutions import ChartSolutions
 from .disks import made_disks
 from .named_vertices import NamedVertices
-from .outlines import unit_disk
-from .packing import Placements, placements
+from .outlines import Outlines, joint_outlines, unit_disk
+from .packing import ChartShape, Placements, placements
 from .splitting import split_into_charts
 from .unwrapped import Unwrapped
 
 __all__ = ["Unwrapper"]
 
 Vertices = int | Iterable[Any] | None
-Outline = tuple[NDArray[np.complex128], NDArray[np.int64]]
 SHAPES = [field.name for field in fields(ShapeOptions)]
 PLACES = [field.name for field in fields(PlaceOptions) if field.name != "rotation"]
 
@@ -180,14 +179,19 @@ class Unwrapper:
         done = np.append(mapped, False)[chart_of_face]
         return Unwrapped(uv, chart_of_face, done, ChartList(split, meshes, solutions, placed))
 
-    def _outlines(self, solutions: ChartSolutions) -> list[Outline] | None:
-        """Positions and triangles that cover each mapped chart, of disks the whole disk; None where all are disks."""
-        if solutions.is_disk[solutions.mapped].all():
+    def _outlines(self, solutions: ChartSolutions) -> Outlines | list[ChartShape] | None:
+        """What covers each mapped chart, of disks the whole disk; None where all are disks."""
+        meshes, mapped = self._meshes, solutions.mapped
+        disks = solutions.is_disk[mapped]
+        if disks.all():
             return None
-        meshes, disk = self._meshes, unit_disk()
+        if not disks.any():
+            number = np.where(mapped, np.cumsum(mapped) - 1, -1)[meshes.chart_of_face]
+            return joint_outlines(solutions.z, meshes.F_of_all[number >= 0].T, number[number >= 0])
+        disk = unit_disk()
         return [
             disk
             if solutions.is_disk[number]
             else (solutions.z[meshes.first_vertex[number] : meshes.first_virtual[number]], meshes[number].F.T)
-            for number in np.flatnonzero(solutions.mapped).tolist()
+            for number in np.flatnonzero(mapped).tolist()
         ]
