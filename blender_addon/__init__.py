@@ -5,9 +5,42 @@ All mathematics is in the package conformal_uv: beside this one in a checkout, i
 
 import bpy
 
-from . import command, last_result, menus, operators, panel, sphere
+from . import (
+    command,
+    flatten,
+    keymaps,
+    last_result,
+    live_tools,
+    manual,
+    menus,
+    operators,
+    overlay,
+    pack_operator,
+    panel,
+    preferences,
+    presets,
+    sphere,
+    staleness,
+    translations,
+)
 
-MODULES = (operators, sphere, panel, menus, command)
+MODULES = (
+    translations,
+    operators,
+    pack_operator,
+    overlay,
+    flatten,
+    sphere,
+    presets,
+    panel,
+    menus,
+    live_tools,
+    keymaps,
+    preferences,
+    staleness,
+    manual,
+    command,
+)
 
 
 @bpy.app.handlers.persistent

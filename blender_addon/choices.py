@@ -1,6 +1,6 @@
 """What may be chosen, as the panel names it: the library's own choices, and Blender's beside them."""
 
-from conformal_uv.options import Closed, CornerChoice, Method, Shape, Upright
+from conformal_uv.options import Closed, CornerChoice, MarginMethod, Method, PackRotation, PackShape, Shape, Upright
 
 
 def items(told):
@@ -8,12 +8,24 @@ def items(told):
     return tuple((choice.name, label, description) for choice, (label, description) in told.items())
 
 
-SHAPES = items(
+SHAPES = items(  # the commonest first, here and in menus
     {
-        Shape.DISK: ("Disk", "The unit disk: a round boundary"),
-        Shape.FREE: ("Free", "Its own outline, as long as on the surface; what can be unrolled keeps its lengths too"),
-        Shape.RECTANGLE: ("Rectangle", "A rectangle of the proportions that keep angles: straight sides, for strips"),
+        Shape.FREE: (
+            "Free",
+            "Islands keep their own outline, as long as on the surface: for most meshes; what can be unrolled keeps "
+            "its lengths too",
+        ),
+        Shape.DISK: ("Disk", "Islands become round: for maps that are compared or composed with others on the disk"),
+        Shape.RECTANGLE: (
+            "Rectangle",
+            "Islands become rectangles of the proportions that keep angles: for strips, panels and tiles",
+        ),
     }
+)
+UNWRAPS = (  # menu entries: every shape, by its identifier
+    (Shape.FREE.name, "Conformal Unwrap"),
+    (Shape.DISK.name, "Conformal Disk Unwrap"),
+    (Shape.RECTANGLE.name, "Conformal Rectangle Unwrap"),
 )
 UPRIGHT = items(
     {
@@ -64,10 +76,34 @@ PLACES = (
     (
         "FIT",
         "Fit the Square",
-        "One island fills the unit square; several are packed by conformal_uv: of all objects in Edit Mode together, "
-        "of selected objects in Object Mode each by itself",
+        "One island fills the unit square; several are packed: of all objects in Edit Mode together, of selected "
+        "objects in Object Mode each by itself",
     ),
-    ("PACK", "Keep Size and Pack", "Islands keep their relative size; Blender packs those of all objects together"),
+    ("PACK", "Pack Together", "Islands of all objects are packed into one square, in Object Mode too"),
+)
+MARGIN_METHODS = items(
+    {
+        MarginMethod.FRACTION: ("Fraction", "A part of the square's side"),
+        MarginMethod.PIXELS: ("Pixels", "Pixels of a square image of the size given"),
+        MarginMethod.SCALED: ("Scaled", "A part of a tenth of the sum of the islands' sides, scaled as they are"),
+        MarginMethod.ADD: ("Add", "Added to islands as they are before they are scaled to fit the square"),
+        MarginMethod.BETWEEN: ("Between", "A part of the square's side, between islands as to the sides of the square"),
+    }
+)
+PACK_ROTATIONS = items(
+    {
+        PackRotation.NONE: ("Off", "Islands are not turned"),
+        PackRotation.QUARTERS: ("Cardinal", "By quarter turns"),
+        PackRotation.AXES: ("Axis-aligned", "To lie along the axes, and by quarter turns"),
+        PackRotation.ANY: ("Any", "By any angle; fills the most"),
+    }
+)
+PACK_SHAPES = items(
+    {
+        PackShape.OUTLINE: ("Exact Shape (Concave)", "The outline: others may come to lie in bays and holes"),
+        PackShape.CONVEX: ("Boundary Shape (Convex)", "The convex hull"),
+        PackShape.BOX: ("Bounding Box", "The box around it"),
+    }
 )
 FACES = (
     (
@@ -77,3 +113,8 @@ FACES = (
     ),
     ("ALL", "All Visible", "All visible faces"),
 )
+
+LABELS = {  # of options that the library proposes: what the panel calls them and their values
+    "closed": ("Closed Surfaces", {identifier: name for identifier, name, _ in CLOSED}),
+    "method": ("Method", {identifier: name for identifier, name, _ in METHODS}),
+}

@@ -8,7 +8,18 @@ from pathlib import Path
 
 import bpy
 
-from .choices import CENTERS, CLOSED, CORNER_CHOICES, METHODS, PLACES, SHAPES, UPRIGHT
+from .choices import (
+    CENTERS,
+    CLOSED,
+    CORNER_CHOICES,
+    MARGIN_METHODS,
+    METHODS,
+    PACK_ROTATIONS,
+    PACK_SHAPES,
+    PLACES,
+    SHAPES,
+    UPRIGHT,
+)
 from .libraries import missing_library
 from .properties import DEFAULTS, Options
 
@@ -37,11 +48,14 @@ def run(argv):
         bpy.ops.wm.open_mainfile(filepath=str(Path(arguments.input).resolve()))
     except RuntimeError as error:
         return _failed(f"{arguments.input}: {error}")
-    objects, unknown = _objects(arguments.object)
+    missing = [name for name in arguments.collection or () if name not in bpy.data.collections]
+    if missing:
+        return _failed(f"{arguments.input} has no collection named {', '.join(missing)}")
+    objects, unknown = _objects(arguments.object, arguments.collection)
     if unknown:
         return _failed(f"{arguments.input} has no mesh object named {', '.join(unknown)}")
     if not objects:
-        return _failed(f"{arguments.input} has no mesh object")
+        return _failed(f"{arguments.input} has no mesh object{' in these collections' if arguments.collection else ''}")
     return _unwrap_and_save(arguments, objects)
 
 
@@ -57,6 +71,12 @@ def parser():
     given.add_argument(
         "--object", action="append", metavar="NAME", help="only this object; may be given again (default: every mesh)"
     )
+    given.add_argument(
+        "--collection",
+        action="append",
+        metavar="NAME",
+        help="only objects in this collection, or in those inside it; may be given again",
+    )
     given.add_argument("--json", metavar="REPORT", help="write the numbers to this file")
     for name, items, default in (
         ("shape", SHAPES, DEFAULTS.shape),
@@ -66,11 +86,17 @@ def parser():
         ("center", CENTERS, DEFAULTS.center),
         ("corner_choice", CORNER_CHOICES, DEFAULTS.corner_choice),
         ("upright", UPRIGHT, DEFAULTS.upright),
+        ("margin_method", MARGIN_METHODS, DEFAULTS.margin_method),
+        ("pack_rotation", PACK_ROTATIONS, DEFAULTS.pack_rotation),
+        ("pack_shape", PACK_SHAPES, DEFAULTS.pack_shape),
     ):
         names = [_spelled(identifier) for identifier, _, _ in items]
         given.add_argument(f"--{_spelled(name)}", choices=names, default=_spelled(default))
     given.add_argument("--rotation", type=float, default=0.0, metavar="DEGREES")
     given.add_argument("--margin", type=float, default=DEFAULTS.margin)
+    given.add_argument("--image-size", type=int, default=DEFAULTS.image_size, metavar="PIXELS")
+    given.add_argument("--keep-scale", action="store_true", help="islands have the size of their surfaces")
+    given.add_argument("--tile", type=int, default=DEFAULTS.tile, help="UDIM tile to pack into")
     given.add_argument("--uv-layer", default=DEFAULTS.uv_layer, metavar="NAME", help="default: the active one")
     given.add_argument("--pins", action="store_true", help="pinned UVs on an island's boundary are its pins or corners")
     given.add_argument("--refine", action="store_true", help="the last percents of angle error, for --shape free")
@@ -86,12 +112,17 @@ def forget_work():
     kept_work = sys.modules.get(f"{__package__}.kept_work")
     if kept_work is not None:
         kept_work.KEPT.keep_only(set())
+    spheres = sys.modules.get(f"{__package__}.spheres")
+    if spheres is not None:
+        spheres.forget()
 
 
-def _objects(names):
+def _objects(names, collections):
     """Objects to unwrap, those that share a mesh once, and names that no mesh object has."""
     meshes = {ob.name: ob for ob in bpy.data.objects if ob.type == "MESH"}
-    wanted = list(meshes) if names is None else names
+    inside = {ob.name for name in collections or () for ob in bpy.data.collections[name].all_objects}
+    everything = names is None and collections is None
+    wanted = [*(names or ()), *(name for name in meshes if everything or name in inside)]
     unique = {}
     for name in wanted:
         if name in meshes:
@@ -100,14 +131,17 @@ def _objects(names):
 
 
 def _unwrap_and_save(arguments, objects):
-    from conformal_uv import ConformalUVError
+    from conformal_uv import ConformalUVError, OptionError
     from conformal_uv.files import replaced_file
 
     from .unwrap_objects import unwrap_objects
 
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
-    result = unwrap_objects(bpy.context, objects, _options(arguments))
+    try:
+        result = unwrap_objects(bpy.context, objects, _options(arguments))
+    except OptionError as error:
+        return _failed(str(error), USAGE)
     _tell(result.message)
     for remark in result.remarks:
         _tell(remark)
@@ -162,6 +196,12 @@ def _options(arguments):
         closed=_identifier(arguments.closed),
         place=_identifier(arguments.place),
         margin=arguments.margin,
+        margin_method=_identifier(arguments.margin_method),
+        image_size=arguments.image_size,
+        pack_rotation=_identifier(arguments.pack_rotation),
+        pack_shape=_identifier(arguments.pack_shape),
+        keep_scale=arguments.keep_scale,
+        tile=arguments.tile,
         faces="SELECTED" if arguments.selected else "ALL",
         uv_layer=arguments.uv_layer,
     )
@@ -179,9 +219,9 @@ def _tell(text):
     sys.stdout.write(f"{text}\n")
 
 
-def _failed(text):
+def _failed(text, code=PARTLY):
     sys.stderr.write(f"{NAME}: {text}\n")
-    return PARTLY
+    return code
 
 
 def register():

@@ -2,27 +2,36 @@
 
 import bpy
 
-from .operators import UV_OT_conformal_unwrap
+from .flatten import OBJECT_OT_conformal_flatten
+from .operators import UV_OT_conformal_unwrap_options, draw_unwraps
+from .overlay import VIEW3D_OT_conformal_overlay
+from .pack_operator import UV_OT_conformal_pack
 from .sphere import OBJECT_OT_conformal_sphere
 
-UNWRAPS = (  # the commonest first
-    ("FREE", "Conformal Unwrap"),
-    ("DISK", "Conformal Disk Unwrap"),
-    ("RECTANGLE", "Conformal Rectangle Unwrap"),
-)
+OVERLAYS = (("ANGLE", "Conformal: Show Angles"), ("AREA", "Conformal: Show Areas"), ("NONE", "Conformal: Show Nothing"))
 
 
 def draw(self, context):
-    layout = self.layout
-    layout.operator_context = "INVOKE_DEFAULT"
-    layout.separator()
-    for shape, text in UNWRAPS:
-        layout.operator(UV_OT_conformal_unwrap.bl_idname, text=text).shape = shape
+    self.layout.separator()
+    draw_unwraps(self.layout)
+    self.layout.operator(UV_OT_conformal_unwrap_options.bl_idname, text="Conformal Unwrap with Options...")
 
 
 def draw_for_objects(self, context):
     draw(self, context)
-    self.layout.operator(OBJECT_OT_conformal_sphere.bl_idname)
+    for operator in (OBJECT_OT_conformal_sphere, OBJECT_OT_conformal_flatten, UV_OT_conformal_pack):
+        self.layout.operator(operator.bl_idname)
+
+
+def draw_pack(self, context):
+    self.layout.operator_context = "INVOKE_DEFAULT"
+    self.layout.operator(UV_OT_conformal_pack.bl_idname)
+
+
+def draw_overlay(self, context):
+    self.layout.separator()
+    for quantity, text in OVERLAYS:
+        self.layout.operator(VIEW3D_OT_conformal_overlay.bl_idname, text=text).quantity = quantity
 
 
 def menus():
@@ -31,6 +40,8 @@ def menus():
     if bpy.app.version < (4, 3):
         yield bpy.types.VIEW3D_MT_uv_map, draw
     yield bpy.types.VIEW3D_MT_object, draw_for_objects
+    yield bpy.types.IMAGE_MT_uvs, draw_pack
+    yield bpy.types.VIEW3D_MT_view, draw_overlay
 
 
 def register():

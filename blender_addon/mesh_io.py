@@ -60,6 +60,20 @@ class MeshArrays:
         return hashed.digest()
 
 
+def fingerprint(mesh: bpy.types.Mesh, uv_layer: str) -> bytes:
+    """Of what a map's numbers depend on: positions, corners and UVs of a mesh that is not in Edit Mode."""
+    k = len(mesh.loops)
+    hashed = blake2b(str(len(mesh.polygons)).encode(), digest_size=20)
+    for array in (
+        _attribute(mesh, "position", "vector", np.float32, len(mesh.vertices), 3),
+        _attribute(mesh, ".corner_vert", "value", np.int32, k),
+        read_uv(mesh, uv_layer),
+    ):
+        hashed.update(str(array.shape).encode())
+        hashed.update(np.ascontiguousarray(array).data)
+    return hashed.digest()
+
+
 def read_mesh(mesh: bpy.types.Mesh, uv_layer: str) -> MeshArrays:
     """The arrays of a mesh that is not in Edit Mode.
 
@@ -98,6 +112,16 @@ def selected_uvs(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
     return _attribute(mesh, name, "value", np.bool_, len(mesh.loops))
 
 
+def read_corner_flags(mesh: bpy.types.Mesh, name: str) -> NDArray[np.bool_]:
+    """A boolean attribute of corners, (k,)."""
+    return _attribute(mesh, name, "value", np.bool_, len(mesh.loops))
+
+
+def read_selected_vertices(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+    """Which vertices are selected, (n,)."""
+    return _attribute(mesh, ".select_vert", "value", np.bool_, len(mesh.vertices))
+
+
 def read_corner_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     """The edge of every corner, (k,)."""
     return _attribute(mesh, ".corner_edge", "value", np.int32, len(mesh.loops))
@@ -118,7 +142,14 @@ def uv_layer_name(mesh: bpy.types.Mesh, wanted: str) -> str:
 
 def has_room(mesh: bpy.types.Mesh, uv_layer: str) -> bool:
     """Whether the layer exists or can be made."""
-    return mesh.uv_layers.get(uv_layer) is not None or len(mesh.uv_layers) < MOST_UV_LAYERS
+    there = mesh.uv_layers.get(uv_layer) is not None or holds_vectors(mesh, uv_layer)
+    return there or len(mesh.uv_layers) < MOST_UV_LAYERS
+
+
+def holds_vectors(mesh: bpy.types.Mesh, name: str) -> bool:
+    """Whether there is a 3D vector attribute of corners of this name, which can hold UVs, too."""
+    attribute = mesh.attributes.get(name)
+    return attribute is not None and (attribute.domain, attribute.data_type) == ("CORNER", "FLOAT_VECTOR")
 
 
 def write_uv(mesh: bpy.types.Mesh, uv_layer: str, uv: NDArray[np.float64], written: NDArray[np.bool_]) -> None:
@@ -127,18 +158,19 @@ def write_uv(mesh: bpy.types.Mesh, uv_layer: str, uv: NDArray[np.float64], writt
     Parameters
     ----------
     uv_layer : str
-        Made, and made active, when missing.
+        A UV map, made, and made active, when missing; or a 3D vector attribute of corners, whose third component
+        becomes 0.
     uv : (k, 2)
     written : (k,) bool
     """
-    layer = mesh.uv_layers.get(uv_layer)
-    if layer is None:
-        layer = mesh.uv_layers.new(name=uv_layer)
-        mesh.uv_layers.active = layer
-    values = np.empty((len(mesh.loops), 2), dtype=np.float32)
-    data = mesh.attributes[layer.name].data
+    width = 3 if holds_vectors(mesh, uv_layer) else 2
+    if width == 2 and mesh.uv_layers.get(uv_layer) is None:
+        mesh.uv_layers.active = mesh.uv_layers.new(name=uv_layer)
+    values = np.empty((len(mesh.loops), width), dtype=np.float32)
+    data = mesh.attributes[uv_layer].data
     data.foreach_get("vector", values.reshape(-1))
-    np.copyto(values, uv, where=written[:, None], casting="same_kind")
+    values[written, 2:] = 0.0
+    np.copyto(values[:, :2], uv, where=written[:, None], casting="same_kind")
     data.foreach_set("vector", values.reshape(-1))
     mesh.update()
 
@@ -167,22 +199,64 @@ def write_selection(mesh: bpy.types.Mesh, faces: NDArray[np.bool_]) -> None:
     mesh.update()
 
 
-def new_mesh(arrays: MeshArrays, faces: NDArray[np.bool_], uv: NDArray[np.float32]) -> bpy.types.Mesh:
-    """A mesh of some of the faces (p,), with the UVs (k, 2) of their corners."""
-    sizes = np.diff(arrays.starts)
-    corner = np.repeat(faces, sizes)
-    sizes = sizes[faces]
-    mesh = bpy.data.meshes.new("conformal_uv packing")
-    mesh.vertices.add(len(arrays.V))
-    mesh.vertices.foreach_set("co", arrays.V.reshape(-1))
-    mesh.loops.add(int(corner.sum()))
-    mesh.loops.foreach_set("vertex_index", arrays.corners[corner])
-    mesh.polygons.add(len(sizes))
-    mesh.polygons.foreach_set("loop_start", (np.cumsum(sizes) - sizes).astype(np.int32))
+def write_face_floats(mesh: bpy.types.Mesh, name: str, values: NDArray[np.float64]) -> None:
+    """Set a float attribute of faces (p,), in Object Mode; made when missing."""
+    _attribute_of(mesh, name, "FLOAT", "FACE").data.foreach_set("value", np.ascontiguousarray(values, dtype=np.float32))
+    mesh.update()
+
+
+def write_colors(mesh: bpy.types.Mesh, name: str, colors: NDArray[np.float64]) -> None:
+    """Set a colour attribute of corners by sRGB (k, 3), in Object Mode; made when missing, and the active one then."""
+    attribute = _attribute_of(mesh, name, "BYTE_COLOR", "CORNER")
+    values = np.ones((len(colors), 4), dtype=np.float32)
+    values[:, :3] = colors
+    attribute.data.foreach_set("color_srgb", values.reshape(-1))
+    mesh.color_attributes.active_color = mesh.color_attributes[name]
+    mesh.update()
+
+
+def flat_mesh(
+    source: bpy.types.Mesh, V: NDArray[np.float64], corners: NDArray[np.int64], vertex: NDArray[np.int64]
+) -> bpy.types.Mesh:
+    """A new mesh of the same faces on other vertices, with their UV map, materials and normals' smoothness.
+
+    The attribute `conformal_vertex` holds the vertex of the source that each is.
+
+    Parameters
+    ----------
+    V : (n, 3)
+    corners : (k,)
+        Vertex of every corner of the source.
+    vertex : (n,)
+    """
+    mesh = bpy.data.meshes.new(f"{source.name} Flat")
+    p, k = len(source.polygons), len(source.loops)
+    mesh.vertices.add(len(V))
+    mesh.loops.add(k)
+    mesh.polygons.add(p)
+    mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(V, dtype=np.float32).reshape(-1))
+    mesh.loops.foreach_set("vertex_index", corners.astype(np.int32))
+    mesh.polygons.foreach_set("loop_start", _starts(source, p, k)[:p])
     mesh.update(calc_edges=True)
-    layer = mesh.uv_layers.new(name=DEFAULT_LAYER)
-    layer.uv.foreach_set("vector", np.ascontiguousarray(uv[corner]).reshape(-1))
+    slots = np.empty(p, dtype=np.int32)
+    source.polygons.foreach_get("material_index", slots)
+    mesh.polygons.foreach_set("material_index", slots)
+    for material in source.materials:
+        mesh.materials.append(material)
+    layer = source.uv_layers.active.name
+    mesh.uv_layers.new(name=layer).uv.foreach_set("vector", read_uv(source, layer).reshape(-1))
+    _attribute_of(mesh, "conformal_vertex", "INT", "POINT").data.foreach_set("value", vertex.astype(np.int32))
+    mesh.update()
     return mesh
+
+
+def _attribute_of(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> bpy.types.Attribute:
+    """The attribute of this name, type and domain: made, or made anew where it is of another."""
+    attribute = mesh.attributes.get(name)
+    if attribute is not None and (attribute.data_type != kind or attribute.domain != domain):
+        mesh.attributes.remove(attribute)
+        attribute = None
+    return mesh.attributes.new(name, kind, domain) if attribute is None else attribute
 
 
 def _write_flags(mesh: bpy.types.Mesh, name: str, domain: str, values: NDArray[np.bool_]) -> None:

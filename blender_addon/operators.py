@@ -5,32 +5,41 @@ from dataclasses import replace
 import bpy
 
 from . import last_result
-from .choices import SHAPES
+from .background import RUNNING, InBackground
+from .choices import SHAPES, UNWRAPS
 from .edit_mode import follows_uv_selection, target_objects
 from .libraries import missing_library
-from .properties import SHOWN, SHOWN_FOR_ALL, Options, UnwrapProperties
+from .options_layout import draw_options
+from .properties import Options, UnwrapProperties
+from .words import counted, shown, told
+from .worker import BACKEND, under_way
 
 MANY_FACES = 50_000  # from here on the window gets a thread and a progress text
 
 
 def refusal(context: bpy.types.Context) -> str:
     """Why there is nothing to unwrap, empty where there is something."""
+    if under_way():
+        return told(RUNNING)
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Go to Object Mode or to Edit Mode of a mesh"
+        return told("Go to Object Mode or to Edit Mode of a mesh")
     if context.mode == "OBJECT" and not any(ob.type == "MESH" for ob in context.selected_editable_objects):
-        return "Select a mesh object"
+        return told("Select a mesh object")
     return missing_library()
 
 
-class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
-    """Map each island of the selected faces to a disk, its own outline or a rectangle, keeping angles"""
+class UV_OT_conformal_unwrap(UnwrapProperties, InBackground, bpy.types.Operator):
+    """Islands of the selected faces mapped, angles kept"""
 
     bl_idname = "uv.conformal_unwrap"
     bl_label = "Conformal Unwrap"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_description = (
+        "Unwrap each island of the selected faces, keeping angles.\n"
+        "Mark seams first; in Object Mode a mesh without selected faces is unwrapped as a whole"
+    )
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
-    _worker = None
-    _seconds = 0.0  # that a thread has spent already
+    _solved = None  # what a thread has left in KEPT
 
     @classmethod
     def poll(cls, context):
@@ -42,8 +51,8 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
     @classmethod
     def description(cls, context, properties):
         """The tooltip of a menu entry, each of which has its shape."""
-        (told,) = (text for identifier, _, text in SHAPES if identifier == properties.shape)
-        return f"Unwrap each island of the selected faces, keeping angles. {told}"
+        (what,) = (text for identifier, _, text in SHAPES if identifier == properties.shape)
+        return f"{shown('Unwrap each island of the selected faces, keeping angles.')}\n{shown(what)}"
 
     def invoke(self, context, event):
         """From the window: large meshes are solved in a thread, then written by execute from what it kept."""
@@ -51,42 +60,50 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
         self.only_selected_uvs = follows_uv_selection(context)
         if sum(len(ob.data.polygons) for ob in objects) < MANY_FACES and context.mode == "OBJECT":
             return self.execute(context)
-        from .worker import Worker
+        from .kept_work import KEPT
+        from .tasks import gather
+        from .unwrap_objects import keys_of, solve
 
-        worker = Worker(context, objects, Options.of(self))
-        if worker.faces < MANY_FACES:
+        options = Options.of(self)
+        tasks = gather(context, objects, options)
+        if sum(int(task.surface.chosen.sum()) for task in tasks if task.surface is not None) < MANY_FACES:
             return self.execute(context)
-        self._worker = worker
-        worker.start(context)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        work = KEPT.fork()
+        self._solved = (work, keys_of(tasks, options))
+        return self.begin(context, lambda callback: solve(tasks, options, work, callback=callback, backend=BACKEND))
 
-    def modal(self, context, event):
-        if event.type == "ESC" and event.value == "PRESS":
-            self._worker.cancel(context)
-            self.report({"INFO"}, "Conformal Unwrap cancelled; nothing was changed")
-            return {"CANCELLED"}
-        if event.type == "TIMER":
-            if self._worker.running:
-                self._worker.show(context)
-            else:
-                self._seconds = self._worker.finish(context)
-                return self.execute(context)
-        return {"RUNNING_MODAL"}
+    def finished(self, context):
+        """Hand the thread's work over and write."""
+        from .kept_work import KEPT
+
+        KEPT.adopt(self._solved[0])
+        return self.execute(context)
 
     def cancel(self, context):
-        """Blender closes the window or loads another file."""
-        if self._worker is not None:
-            self._worker.cancel(context)
+        from .kept_work import KEPT
+
+        KEPT.keep_only(set())  # what the thread shares may be half-made
+        super().cancel(context)
 
     def execute(self, context):
-        from .unwrap_objects import unwrap_objects
+        from conformal_uv import OptionError
+
+        from .unwrap_objects import ChangedMeanwhileError, unwrap_objects
 
         attended = self.options.is_invoke or self.options.is_repeat  # not called by a script
         if not attended:
             self.only_selected_uvs = follows_uv_selection(context)
-        result = unwrap_objects(context, target_objects(context), Options.of(self))
-        last_result.keep(replace(result, seconds=result.seconds + self._seconds))
+        expected, self._solved = (self._solved or (None, None))[1], None
+        try:
+            with last_result.own_change(context):
+                result = unwrap_objects(context, target_objects(context), Options.of(self), expected=expected)
+        except OptionError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        except ChangedMeanwhileError:
+            self.report({"WARNING"}, told("The mesh or its selection was changed meanwhile; nothing was written"))
+            return {"CANCELLED"}
+        last_result.keep(replace(result, seconds=result.seconds + self._seconds), attended)
         self._seconds = 0.0
         if not (result.unwrapped or result.left or (attended and result.tried)):  # the redo panel offers what may help
             self.report({"ERROR"}, result.message)
@@ -97,40 +114,151 @@ class UV_OT_conformal_unwrap(UnwrapProperties, bpy.types.Operator):
         return {"FINISHED"}
 
     def draw(self, context):
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        for names in (("shape", *SHOWN[self.shape]), *SHOWN_FOR_ALL):
-            column = layout.column()
-            for name in names:
-                column.prop(self, name)
-            layout.separator(factor=0.5)
+        draw_options(self.layout, self)
 
 
-class UV_OT_conformal_select_folded(bpy.types.Operator):
-    """Select visible faces whose UVs are inverted or have no area, in the active UV map"""
+class UV_OT_conformal_unwrap_options(bpy.types.Operator):
+    """The options of the next unwrap in a dialog"""
 
-    bl_idname = "uv.conformal_select_folded"
-    bl_label = "Select Flipped or Collapsed"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_idname = "uv.conformal_unwrap_options"
+    bl_label = "Conformal Unwrap with Options"
+    bl_description = (
+        "Choose shape, presets and all other options, then unwrap.\n"
+        "The options are those of the sidebar, and stay for the next time"
+    )
+    bl_options = {"INTERNAL"}
 
     @classmethod
     def poll(cls, context):
-        why = "Go to Edit Mode" if context.mode != "EDIT_MESH" else missing_library()
+        why = refusal(context)
         if why:
             cls.poll_message_set(why)
         return not why
 
-    def execute(self, context):
-        from .folded import select_folded
+    def invoke(self, context, event):
+        return context.window_manager.invoke_props_dialog(self, width=360, confirm_text=shown("Unwrap"))
 
-        found = select_folded(context)
-        context.tool_settings.mesh_select_mode = (False, False, True)
-        self.report({"INFO"}, f"{found} faces are flipped or collapsed")
+    def draw(self, context):
+        from .presets import UV_PT_conformal_presets
+
+        UV_PT_conformal_presets.draw_menu(self.layout)
+        draw_options(self.layout, chosen_options(context))
+
+    def execute(self, context):
+        chosen = chosen_options(context)
+        return bpy.ops.uv.conformal_unwrap("INVOKE_DEFAULT", True, **Options.of(chosen).as_arguments())
+
+
+def chosen_options(context):
+    """The options of the next unwrap from the window: as the last one had them, and as panels change them."""
+    return context.window_manager.operator_properties_last(UV_OT_conformal_unwrap.bl_idname)
+
+
+class _Selects:
+    """What operators have in common that select faces."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        why = told("Go to Edit Mode") if context.mode != "EDIT_MESH" else missing_library()
+        if why:
+            cls.poll_message_set(why)
+        return not why
+
+    def select(self, context, faces_of):
+        """Select the faces that the function finds in a mesh; how many there are."""
+        from .face_selection import select_faces
+
+        with last_result.own_change(context):
+            # Before: among vertices, Edit Mode would take in every face whose corners are selected.
+            context.tool_settings.mesh_select_mode = (False, False, True)
+            return select_faces(context, faces_of)
+
+
+class UV_OT_conformal_select_folded(_Selects, bpy.types.Operator):
+    """Faces whose UVs are inverted or have no area"""
+
+    bl_idname = "uv.conformal_select_folded"
+    bl_label = "Select Flipped or Collapsed"
+    bl_description = (
+        "Select visible faces whose UVs are inverted or have no area, in the active UV map.\n"
+        "Textures show mirrored or smeared there"
+    )
+
+    def execute(self, context):
+        from .folded import folded_faces
+
+        found = self.select(context, folded_faces)
+        self.report(
+            {"INFO"}, counted(found, "{count} face is flipped or collapsed", "{count} faces are flipped or collapsed")
+        )
         return {"FINISHED"}
 
 
-CLASSES = (UV_OT_conformal_unwrap, UV_OT_conformal_select_folded)
+class UV_OT_conformal_select_worst(_Selects, bpy.types.Operator):
+    """Faces of the largest angle errors"""
+
+    bl_idname = "uv.conformal_select_worst"
+    bl_label = "Select Most Distorted"
+    bl_description = (
+        "Select visible faces whose angles differ most from those in the active UV map.\n"
+        "Seams across them, or another shape, help most"
+    )
+
+    by: bpy.props.EnumProperty(
+        name="By",
+        description="Which faces are selected",
+        items=(
+            ("SHARE", "Share", "As many faces of each mesh as the share says, the worst ones"),
+            ("ERROR", "Angle Error", "All faces of which a corner is off by more than the angle"),
+        ),
+        default="SHARE",
+    )
+    share: bpy.props.FloatProperty(
+        name="Share",
+        description="Of the visible faces of each mesh",
+        subtype="PERCENTAGE",
+        min=0.0,
+        max=100.0,
+        default=5.0,
+    )
+    error: bpy.props.FloatProperty(
+        name="Angle Error",
+        description="The least angle by which a corner of a selected face is off",
+        subtype="ANGLE",
+        min=0.0,
+        max=3.15,
+        default=0.3490658503988659,  # 20 degrees
+    )
+
+    def execute(self, context):
+        from .worst import worst_faces
+
+        found = self.select(context, lambda mesh: worst_faces(mesh, self.by, self.share, self.error))
+        self.report({"INFO"}, counted(found, "{count} face is selected", "{count} faces are selected"))
+        return {"FINISHED"}
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "by")
+        layout.prop(self, "share" if self.by == "SHARE" else "error")
+
+
+def draw_unwraps(layout):
+    """The unwrap in each of its shapes, as menus have it."""
+    layout.operator_context = "INVOKE_DEFAULT"
+    for shape, text in UNWRAPS:
+        layout.operator(UV_OT_conformal_unwrap.bl_idname, text=text).shape = shape
+
+
+CLASSES = (
+    UV_OT_conformal_unwrap,
+    UV_OT_conformal_unwrap_options,
+    UV_OT_conformal_select_folded,
+    UV_OT_conformal_select_worst,
+)
 
 
 def register():

@@ -16,9 +16,9 @@ NO_CORNERS = (
     "vertices there and no face"
 )
 HOW_TO_USE = {
-    "DISK": "; unpin them, or pin three on the boundary and turn on Use Pins",
-    "FREE": "; unpin them",
-    "RECTANGLE": "; unpin them, or pin four on the boundary and turn on Use Pins",
+    "DISK": "pinned UVs stay where they are; unpin them, or pin three on the boundary and turn on Use Pins",
+    "FREE": "pinned UVs stay where they are; unpin them, or map the island from its pins with Conformal Live Pins",
+    "RECTANGLE": "pinned UVs stay where they are; unpin them, or pin four on the boundary and turn on Use Pins",
 }
 
 

@@ -2,31 +2,40 @@
 
 import bpy
 
+from . import last_result
+from .background import RUNNING, InBackground
 from .libraries import missing_library
-from .mesh_io import has_room, read_mesh, uv_layer_name, write_shape_key, write_uv
+from .words import counted, told
+from .worker import BACKEND, under_way
 
-SHAPE_KEY = "Conformal Sphere"
+MANY_FACES = 10_000  # from here on the window gets a thread and a progress text
 
 
-class OBJECT_OT_conformal_sphere(bpy.types.Operator):
-    """Add a shape key that turns each selected closed mesh into a sphere, keeping angles"""
+class OBJECT_OT_conformal_sphere(InBackground, bpy.types.Operator):
+    """A shape key that turns a closed mesh into its conformal sphere"""
 
     bl_idname = "object.conformal_sphere"
     bl_label = "Conformal Sphere Map"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_description = (
+        "Add a shape key that turns each selected closed mesh into a sphere, keeping angles.\n"
+        "For closed meshes without handles; UVs are written on request"
+    )
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     method: bpy.props.EnumProperty(
         name="Method",
+        description="How the map is computed.\nAutomatic unless time or a comparison matters",
         items=(
             ("AUTO", "Automatic", "The method that keeps the angles best"),
             ("LINEAR", "Linear", "One factorization; the fastest"),
-            ("SCHWARZ", "Schwarz", "Two charts in turn; for large scans and long limbs"),
+            ("SCHWARZ", "Schwarz", "Two overlapping parts in turn; for large scans and long limbs"),
             ("NEWTON", "Newton", "The least conformal energy; for coarse meshes"),
         ),
         default="AUTO",
     )
     uv: bpy.props.EnumProperty(
         name="UVs",
+        description="Layout that is written into the active UV map.\nNone leaves the UVs as they are",
         items=(
             ("NONE", "None", "Leave the UVs as they are"),
             ("EQUIRECTANGULAR", "Equirectangular", "Longitude and latitude; faces across the seam go on beyond 1"),
@@ -35,65 +44,70 @@ class OBJECT_OT_conformal_sphere(bpy.types.Operator):
         default="NONE",
     )
 
+    _expected = None  # what a thread has solved
+
     @classmethod
     def poll(cls, context):
-        why = "Go to Object Mode" if context.mode != "OBJECT" else missing_library()
+        why = told(RUNNING) if under_way() else missing_library()
+        if not why and context.mode != "OBJECT":
+            why = told("Go to Object Mode")
         if not why and not any(ob.type == "MESH" for ob in context.selected_editable_objects):
-            why = "Select a mesh object"
+            why = told("Select a mesh object")
         if why:
             cls.poll_message_set(why)
         return not why
 
-    def execute(self, context):
-        from conformal_uv import ConformalUVError
+    def invoke(self, context, event):
+        """From the window: large meshes are solved in a thread, then written by execute from what it kept."""
+        from .spheres import SpherePart, solve
 
-        objects = {ob.data: ob for ob in context.selected_editable_objects if ob.type == "MESH"}
-        failures = []
-        for ob in objects.values():
-            try:
-                self._map(ob)
-            except ConformalUVError as error:
-                failures.append(f"{ob.name}: {error.told(lambda remedy: '')}")
+        objects = self._objects(context)
+        if sum(len(ob.data.polygons) for ob in objects) < MANY_FACES:
+            return self.execute(context)
+        method, parts = self.method.lower(), [SpherePart.of(ob) for ob in objects]
+        self._expected = {part.digest for part in parts}
+        return self.begin(context, lambda callback: solve(parts, method, callback=callback, backend=BACKEND))
+
+    def finished(self, context):
+        return self.execute(context)
+
+    def execute(self, context):
+        from .spheres import SpherePart, solve, write
+
+        objects = self._objects(context)
+        parts = [SpherePart.of(ob) for ob in objects] if context.mode == "OBJECT" else []
+        expected, self._expected = self._expected, None
+        if expected is not None and {part.digest for part in parts} != expected:
+            self.report({"WARNING"}, told("The mesh or its selection was changed meanwhile; nothing was written"))
+            return {"CANCELLED"}
+        solve(parts, self.method.lower())
+        with last_result.own_change(context):
+            reasons = [write(ob, part, self.uv) for ob, part in zip(objects, parts, strict=True)]
+        failures = [f"{ob.name}: {why}" for ob, why in zip(objects, reasons, strict=True) if why]
         done = len(objects) - len(failures)
-        message = "; ".join([f"Mapped {done} of {len(objects)} meshes to spheres", *failures])
+        message = "; ".join(
+            [
+                counted(
+                    len(objects),
+                    "Mapped {done} of {count} mesh to a sphere",
+                    "Mapped {done} of {count} meshes to spheres",
+                    done=done,
+                ),
+                *failures,
+            ]
+        )
         if not done:
             self.report({"ERROR"}, message)
             return {"CANCELLED"}
+        for ob, part in zip(objects, parts, strict=True):
+            if part.uneven:
+                self.report({"INFO"}, f"{ob.name}: {told(part.uneven)}")
         self.report({"WARNING"} if failures else {"INFO"}, message)
         return {"FINISHED"}
 
-    def _map(self, ob):
-        """Solve, then write; a mesh that can not be mapped is left as it was."""
-        import numpy as np
-
-        from conformal_uv import (
-            MeshError,
-            OptionError,
-            PolygonMesh,
-            equirectangular,
-            octahedral,
-            sphere_map,
-            triangulate,
-        )
-
-        layer = uv_layer_name(ob.data, "")
-        if self.uv != "NONE" and not has_room(ob.data, layer):
-            raise OptionError("it has eight UV maps already; remove one.")
-        arrays = read_mesh(ob.data, layer)
-        V = arrays.V.astype(np.float64)
-        mesh = PolygonMesh(V, arrays.corners.astype(np.int64), arrays.starts.astype(np.int64))
-        triangles, polygon, _ = triangulate(mesh)
-        used, F = np.unique(triangles, return_inverse=True)
-        try:
-            result = sphere_map(V[used], F.reshape(-1, 3), method=self.method.lower(), rotation="surface")
-        except MeshError as error:
-            raise error.renumbered(polygon, used) from error
-        positions, xyz = V.copy(), np.zeros_like(V)
-        positions[used], xyz[used] = result.around_surface, result.xyz
-        write_shape_key(ob, SHAPE_KEY, positions)
-        if self.uv != "NONE":
-            layout = {"EQUIRECTANGULAR": equirectangular, "OCTAHEDRAL": octahedral}[self.uv]
-            write_uv(ob.data, layer, layout(xyz, mesh), np.ones(len(mesh.corners), dtype=bool))
+    def _objects(self, context):
+        """Selected mesh objects, of several with one mesh the last."""
+        return list({ob.data: ob for ob in context.selected_editable_objects if ob.type == "MESH"}.values())
 
 
 def register():

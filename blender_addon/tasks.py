@@ -13,14 +13,21 @@ from conformal_uv import Unwrapped
 
 from .edit_mode import active_vertex, settled_mesh
 from .kept_work import Surface
-from .mesh_io import MeshArrays, has_room, read_mesh, selected_uvs, uv_layer_name
+from .mesh_io import MeshArrays, has_room, holds_vectors, read_mesh, selected_uvs, uv_layer_name
 from .pins import HOW_TO_USE, NO_CORNERS, offered_pins, took_pins
 from .properties import Options
 from .subdivided import Subdivision, read_subdivided
+from .words import told
 
 NO_ACTIVE = "no vertex is active, the center is automatic; in Edit Mode, click a vertex first"
 NO_FACE = "no visible face is selected"
-ONLY_VERTICES = f"{NO_FACE}; turn on Use Pins where selected vertices are to be corners of all visible faces' islands"
+NO_VISIBLE = "no face is visible"
+ONLY_VERTICES = (
+    "no visible face is selected; turn on Use Pins where selected vertices are to be corners of all visible faces' "
+    "islands"
+)
+UNEVEN = "the scale is not uniform, and the mesh is mapped without it; apply it first (Ctrl A)"
+SCALES_ALIKE = 1e-4  # of the largest one, as Blender's own unwrap takes them
 
 
 @dataclass(eq=False)
@@ -69,9 +76,9 @@ class Task:
             chart = solved.charts[number]
             own = self.own_faces(chart.faces)
             if self.pinned[own].any() and not took_pins(chart, offered):
-                self.left[number] = f"pinned UVs stay where they are{HOW_TO_USE[options.shape]}"
+                self.left[number] = told(HOW_TO_USE[options.shape])
             elif self.unselected[own].any():
-                self.left[number] = "some of its UVs are not selected; select whole islands"
+                self.left[number] = told("some of its UVs are not selected; select whole islands")
 
     @property
     def written(self) -> NDArray[np.bool_]:
@@ -88,16 +95,24 @@ class Task:
         return self.solved.mapped & np.append(self.written, False)[self.solved.chart_of_face]
 
 
+def even_scale(ob: bpy.types.Object) -> bool:
+    """Whether an object's scale keeps angles."""
+    sizes = [abs(size) for size in ob.matrix_world.to_scale()]
+    return max(sizes) - min(sizes) <= SCALES_ALIKE * max(sizes)
+
+
 def gather(context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options) -> list[Task]:
     """Read the objects' meshes; a task for each."""
     tasks = [_task(context, ob, options) for ob in objects]
     for task in tasks:
         if task.surface is None:
             continue
+        if not even_scale(task.ob):
+            task.notes.append(told(UNEVEN))
         if options.takes_active and task.surface.active is None:
-            task.notes.append(NO_ACTIVE)
+            task.notes.append(told(NO_ACTIVE))
         if options.takes_selected_corners and not offered_pins(task.surface.arrays, task.surface.chosen, options):
-            task.notes.append(NO_CORNERS)
+            task.notes.append(told(NO_CORNERS))
     return tasks
 
 
@@ -118,14 +133,14 @@ def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) ->
         chosen &= count > 0
         unselected = count < np.diff(arrays.starts)
         if not chosen.any():
-            return Task(ob, layer, None, "no UV is selected")
+            return Task(ob, layer, None, told("no UV is selected"))
     if not chosen.any():
         only_vertices = options.shape == "RECTANGLE" and len(arrays.alone) > 0
-        why = (ONLY_VERTICES if only_vertices else NO_FACE) if ob.mode == "EDIT" else "no face is visible"
+        why = told((ONLY_VERTICES if only_vertices else NO_FACE) if ob.mode == "EDIT" else NO_VISIBLE)
         return Task(ob, layer, None, why, mendable=only_vertices)
     active = active_vertex(ob) if options.takes_active else None
     if active is not None and not np.isin(active, arrays.corners[np.repeat(chosen, np.diff(arrays.starts))]):
-        return Task(ob, layer, None, f"active vertex {active} belongs to no selected face")
+        return Task(ob, layer, None, told("active vertex {vertex} belongs to no selected face", vertex=active))
     pinned = arrays.pinned
     subdivision = read_subdivided(context, ob, arrays) if options.use_subsurf_data else None
     if subdivision is not None:
@@ -154,17 +169,18 @@ def _chosen(ob: bpy.types.Object, arrays: MeshArrays, options: Options) -> NDArr
 def _refusal(ob: bpy.types.Object, mesh: bpy.types.Mesh, layer: str) -> str:
     """Why a mesh can not be unwrapped, before anything of it is read."""
     if mesh.is_editmode and ob.mode != "EDIT":
-        return "the mesh is in Edit Mode through another object; leave Edit Mode there"
+        return told("the mesh is in Edit Mode through another object; leave Edit Mode there")
     if mesh.library is not None:
-        return "the mesh is linked from another file; make it local first"
+        return told("the mesh is linked from another file; make it local first")
     if not len(mesh.polygons) and not mesh.is_editmode:
-        return "the mesh has no faces"
+        return told("the mesh has no faces")
     if not has_room(mesh, layer):
-        return (
-            f"there is no UV map {layer!r} and no room for it: Blender keeps eight UV maps in a mesh; "
-            "remove one or name one of them"
+        return told(
+            "there is no UV map {name!r} and no room for it: Blender keeps eight UV maps in a mesh; "
+            "remove one or name one of them",
+            name=layer,
         )
     other = mesh.attributes.get(layer)
-    if other is not None and mesh.uv_layers.get(layer) is None:
-        return f"{layer!r} is an attribute that is no UV map; choose another name"
+    if other is not None and mesh.uv_layers.get(layer) is None and not holds_vectors(mesh, layer):
+        return told("{name!r} is an attribute, but no vector of face corners; choose another name", name=layer)
     return ""

@@ -13,8 +13,8 @@ from conformal_uv import Callback, CancelledError, ConformalUVError
 from .edit_mode import object_mode
 from .image_aspect import ROUND, aspect_scale
 from .kept_work import KEPT, KeptWork, Key
-from .mesh_io import write_uv
-from .packing import placed
+from .mesh_io import fingerprint, write_uv
+from .packing import placed, tile_corner
 from .properties import Options
 from .results import UnwrapResult, in_words_of_the_panel, object_result
 from .tasks import Task, gather
@@ -39,6 +39,7 @@ def solve(
     ------
     CancelledError
     """
+    keys = keys_of(tasks, options)
     todo = [task for task in tasks if task.surface is not None and not task.refusal]
     for number, task in enumerate(todo):
         try:
@@ -48,27 +49,59 @@ def solve(
             raise
         except ConformalUVError as error:
             task.refusal = in_words_of_the_panel(error)
-    return {task.surface.key(options) for task in todo}
+    return keys
 
 
-def unwrap_objects(context: bpy.types.Context, objects: Iterable[bpy.types.Object], options: Options) -> UnwrapResult:
-    """Unwrap the objects' meshes as the options say; see the result for what could not be done."""
+class ChangedMeanwhileError(Exception):
+    """A mesh, or what is selected of it, is no longer what a thread has solved."""
+
+
+def keys_of(tasks: list[Task], options: Options) -> set[Key]:
+    """What KEPT holds of these tasks once they are solved."""
+    return {task.surface.key(options) for task in tasks if task.surface is not None and not task.refusal}
+
+
+def unwrap_objects(
+    context: bpy.types.Context,
+    objects: Iterable[bpy.types.Object],
+    options: Options,
+    *,
+    expected: set[Key] | None = None,
+) -> UnwrapResult:
+    """Unwrap the objects' meshes as the options say; see the result for what could not be done.
+
+    Parameters
+    ----------
+    expected : set of Key, optional
+        What a thread has solved for them.
+
+    Raises
+    ------
+    conformal_uv.OptionError
+        Before anything is done.
+    ChangedMeanwhileError
+        Before anything is written, where the objects are no longer those.
+    """
     start = time.perf_counter()
+    corner = tile_corner(options)
     tasks = gather(context, objects, options)
+    if expected is not None and keys_of(tasks, options) != expected:
+        raise ChangedMeanwhileError
     KEPT.keep_only(solve(tasks, options, KEPT))
     done = [task for task in tasks if task.written.any()]
-    remarks: list[str] = []
+    middle = corner + 0.5
     together = context.mode == "EDIT_MESH" or options.place == "PACK"
     stored: dict[int, np.ndarray] = {}
     with object_mode(context):
         for group in [done] if together and done else [[task] for task in done]:
-            for task, uv in zip(group, placed(context, group, options, remarks), strict=True):
+            for task, uv in zip(group, placed(group, options), strict=True):
                 scale = aspect_scale(task.ob) if options.correct_aspect else ROUND
-                stored[id(task)] = uv if scale == ROUND else 0.5 + scale * (uv - 0.5)
+                stored[id(task)] = uv if scale == ROUND else middle + scale * (uv - middle)
         for task in done:
             _write(task, stored[id(task)])
-    results = [object_result(task, stored.get(id(task))) for task in tasks]
-    return UnwrapResult(results, time.perf_counter() - start, list(dict.fromkeys(remarks)))
+        prints = {id(task): fingerprint(task.ob.data, task.layer) for task in done}
+    results = [object_result(task, stored.get(id(task)), corner, prints.get(id(task), b"")) for task in tasks]
+    return UnwrapResult(results, time.perf_counter() - start, [], options)
 
 
 def _write(task: Task, uv: np.ndarray) -> None:

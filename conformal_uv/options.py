@@ -28,11 +28,14 @@ __all__ = [
     "FreeOptions",
     "Holes",
     "Laplacian",
+    "MarginMethod",
     "Method",
     "NonManifold",
     "Normalization",
     "Objective",
     "Orientation",
+    "PackRotation",
+    "PackShape",
     "PinMode",
     "Place",
     "PlaceOptions",
@@ -52,6 +55,7 @@ __all__ = [
 ]
 
 INFINITY = float("inf")
+FIRST_TILE, TILES_IN_A_ROW = 1001, 10
 MOST_SCALE = 50.0  # of a logarithm; the squares of such scale factors are far from what doubles hold
 FULL_TURN = 2.0 * np.pi
 TURN_ROUNDING = 1e-6
@@ -196,6 +200,35 @@ class Place(Choice):
     @classmethod
     def _joint(cls) -> str:
         return ", "
+
+
+class MarginMethod(Choice):
+    """What a margin means: a distance between charts and to the sides of the square, as a part of its side; or, as in
+    Blender, one kept around every chart, so that two keep twice as much: a fraction of the side, pixels of an image,
+    a length in the charts' units, or that as many times as a tenth of the sum of their boxes' mean sides."""
+
+    BETWEEN = "between"
+    FRACTION = "fraction"
+    PIXELS = "pixels"
+    ADD = "add"
+    SCALED = "scaled"
+
+
+class PackRotation(Choice):
+    """How charts may be turned to be packed: not at all, by quarters, to lie along the axes, or by any angle."""
+
+    NONE = "none"
+    QUARTERS = "quarters"
+    AXES = "axes"
+    ANY = "any"
+
+
+class PackShape(Choice):
+    """What is packed of a chart: its outline, the convex hull, or the box around it."""
+
+    OUTLINE = "outline"
+    CONVEX = "convex"
+    BOX = "box"
 
 
 class CornerChoice(Choice):
@@ -419,16 +452,44 @@ class PlaceOptions:
 
     place: Place = Place.FIT
     margin: float | None = None
+    margin_method: MarginMethod = MarginMethod.BETWEEN
+    image_size: int = 1024
+    pack_rotation: PackRotation = PackRotation.NONE
+    pack_shape: PackShape = PackShape.OUTLINE
+    keep_scale: bool = False
+    tile: int = FIRST_TILE
     rotation: float = 0.0
 
     def __post_init__(self) -> None:
-        margin = self.margin
-        if margin is not None:
-            margin = real_number("margin", margin, "a part of the square's side")
-        _set(self, rotation=real_number("rotation", self.rotation, "radians"), margin=margin)
-        _set(self, place=Place.of("place", self.place))
-        if margin is not None and not 0.0 <= margin < 0.5:
+        _set(
+            self,
+            place=Place.of("place", self.place),
+            margin_method=MarginMethod.of("margin_method", self.margin_method),
+            pack_rotation=PackRotation.of("pack_rotation", self.pack_rotation),
+            pack_shape=PackShape.of("pack_shape", self.pack_shape),
+            keep_scale=_flag("keep_scale", self.keep_scale),
+            rotation=real_number("rotation", self.rotation, "radians"),
+            image_size=_whole("image_size", self.image_size, 1, 1 << 20),
+            tile=_whole("tile", self.tile, FIRST_TILE, 2000),
+        )
+        if self.margin is not None:
+            _set(self, margin=real_number("margin", self.margin, "a part of the square's side"))
+            self._check_margin()
+
+    def _check_margin(self) -> None:
+        margin, method = self.margin or 0.0, self.margin_method
+        if method in {MarginMethod.ADD, MarginMethod.SCALED}:
+            if margin < 0.0:
+                raise OptionError(f"margin is {margin}; pass a length, at least 0.")
+            return
+        of_side = margin / self.image_size if method is MarginMethod.PIXELS else margin
+        if not 0.0 <= of_side < 0.5:
             raise OptionError(f"margin is {margin}; pass a part of the unit square's side, at least 0 and below 0.5.")
+
+    @property
+    def corner(self) -> complex:
+        """The lower left corner of the tile: ten of them in a row (UDIM)."""
+        return complex((self.tile - FIRST_TILE) % TILES_IN_A_ROW, (self.tile - FIRST_TILE) // TILES_IN_A_ROW)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -580,6 +641,13 @@ class ChartOptions:
     def rectangle(self) -> RectangleOptions:
         """Of charts that become rectangles."""
         return RectangleOptions(corner_choice=self.shape.corner_choice, repair=self.disk.repair)
+
+
+def _whole(name: str, value: object, least: int, most: int) -> int:
+    number = vertex_index(name, value) if not isinstance(value, bool) else least - 1
+    if not least <= number <= most:
+        raise OptionError(f"{name} is {value!r}; pass a whole number from {least} to {most}.")
+    return number
 
 
 def _flag(name: str, value: object) -> bool:

@@ -14,7 +14,7 @@ from .disk import DiskMap
 from .free import FreeMap
 from .mesh.polygons import PolygonMesh
 from .mesh.triangulate import triangulate
-from .operators import Distortion
+from .operators import Distortion, distortion
 from .operators.orientation_sign import orientation_signs
 from .rectangle import RectangleMap
 
@@ -23,6 +23,7 @@ __all__ = [
     "UnwrapNumbers",
     "distortion_numbers",
     "flipped_polygons",
+    "polygon_angle_errors",
     "shape_name",
     "unwrap_numbers",
 ]
@@ -233,3 +234,34 @@ def flipped_polygons(mesh: PolygonMesh, corner_uv: NDArray[np.floating]) -> NDAr
     uv = np.nan_to_num(np.asarray(corner_uv, dtype=np.float64))
     signs = orientation_signs(uv, np.ascontiguousarray(corner.T.astype(np.int32)))
     return np.unique(polygon[signs <= 0])
+
+
+def polygon_angle_errors(mesh: PolygonMesh, corner_uv: NDArray[np.floating]) -> NDArray[np.float64]:
+    """The largest angle error at the corners of each polygon's triangles, in texture coordinates as they are.
+
+    Parameters
+    ----------
+    mesh : PolygonMesh
+    corner_uv : (k, 2)
+        Coordinates of each polygon corner; what is not finite, of these or of the vertices, counts as 0.
+
+    Returns
+    -------
+    (p,) float64, degrees
+        0 for a polygon that can not be cut into triangles.
+
+    Examples
+    --------
+    >>> import conformal_uv as cuv
+    >>> import numpy as np
+    >>> mesh = cuv.PolygonMesh(np.eye(3), np.array([0, 1, 2]), np.array([0, 3]))
+    >>> cuv.polygon_angle_errors(mesh, [[0, 0], [1, 0], [0, 1]]).round(9).tolist()
+    [30.0]
+    """
+    _, polygon, corner = triangulate(mesh)
+    worst = np.zeros(len(mesh.sizes))
+    if len(corner):
+        V = np.nan_to_num(mesh.V[mesh.corners])
+        found = distortion(V, corner, np.nan_to_num(np.asarray(corner_uv, dtype=np.float64)))
+        np.maximum.at(worst, polygon, found.angle_error.max(axis=1))
+    return worst

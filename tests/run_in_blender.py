@@ -2,7 +2,7 @@
 
     blender --background --python tests/run_in_blender.py [-- PYTEST ARGUMENTS]
 
-They test the extension where it is installed (it brings scipy and rectangle-packer), else the repository's add-on;
+They test the extension where it is installed (it brings scipy), else the repository's add-on;
 CONFORMAL_UV_BLENDER_MODULE=blender_addon asks for that one.
 """
 

@@ -10,8 +10,9 @@ from polygon_shapes import block, grid, tube
 import conformal_uv as cuv
 from conformal_uv.charts.chart_progress import ChartProgress
 from conformal_uv.charts.cut_graph import OneChart, _cotree
-from conformal_uv.charts.packing import kept_margin, pack_disks
+from conformal_uv.charts.packing import pack_disks
 from conformal_uv.charts.shelves import blocks_of_shelves
+from conformal_uv.charts.spacing import kept_margin
 
 
 def pair_of_polygons(length: list[float]) -> OneChart:

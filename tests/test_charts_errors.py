@@ -9,13 +9,12 @@ from polygon_shapes import CUBE, CUBE_V, grid, side_by_side
 from conformal_uv import (
     DegenerateFaceError,
     MeshError,
-    MissingDependencyError,
     NonFiniteError,
     OptionError,
     SolverError,
     TopologyError,
 )
-from conformal_uv.charts import Unwrapper, unwrap
+from conformal_uv.charts import unwrap
 
 
 def test_one_failure_among_twelve_and_the_exact_summary():
@@ -166,13 +165,3 @@ def test_arrays_that_are_no_mesh(name):
 def test_short_polygons_that_are_not_selected_do_not_matter():
     V, Q = grid(1, 1)
     assert unwrap(V, [[0, 1], Q[0].tolist(), []], selection=[1]).mapped.tolist() == [False, True, False]
-
-
-def test_packing_needs_its_library(monkeypatch):
-    import sys
-
-    monkeypatch.setitem(sys.modules, "rpack", None)
-    again = Unwrapper(*side_by_side(2))
-    assert again.unwrap(place="disk").mapped.all()
-    with pytest.raises(MissingDependencyError, match="pip install rectangle-packer"):
-        again.unwrap()

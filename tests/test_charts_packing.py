@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 import pytest
 from meshes import annulus, disjoint, plate
 from polygon_shapes import side_by_side
 
 import conformal_uv as cuv
+from conformal_uv.charts import footprints as footprints_module
 from conformal_uv.charts import shelves, unwrap
 from conformal_uv.charts.cell_packing import pack_cells
-from conformal_uv.charts.footprints import Footprints
-from conformal_uv.charts.packing import kept_margin, pack_charts, pack_disks
-from conformal_uv.errors import MissingDependencyError
+from conformal_uv.charts.free_cells import NOWHERE, FreeCells, Stencil
+from conformal_uv.charts.packing import pack_charts, pack_disks
+from conformal_uv.charts.spacing import kept_margin
+from conformal_uv.options import PlaceOptions
 
 RADII = {
     "equal": lambda rng, n: np.ones(n),
@@ -102,10 +102,10 @@ def rectangle(width, height):
     return np.array([0, width, width + 1j * height, 1j * height]), QUAD
 
 
-def placed(charts, margin):
-    found = pack_charts(charts, margin)
-    assert len({place.scale for place in found}) == 1  # one for all
-    return [complex(*place.center) + place.scale * z for place, (z, _) in zip(found, charts, strict=True)]
+def placed(charts, margin, **options):
+    found = pack_charts(charts, PlaceOptions(margin=margin, **options))
+    assert len(set(found.scale.tolist())) == 1  # one for all
+    return [found.placed(z, np.full(len(z), number)) for number, (z, _) in enumerate(charts)]
 
 
 def double_area(z, corners):
@@ -171,7 +171,9 @@ def test_outlines_lie_in_each_other_s_bays():
     for kind, gain in (("L shapes", 1.5), ("stars", 1.05)):
         charts = SETS[kind]
         area = sum(0.5 * double_area(*chart) for chart in charts)
-        by_outline, by_box = (pack_charts(shapes, 0.002)[0].scale for shapes in (charts, boxes_of(charts)))
+        by_outline, by_box = (
+            pack_charts(shapes, PlaceOptions(margin=0.002)).scale[0] for shapes in (charts, boxes_of(charts))
+        )
         assert area * by_outline**2 > gain * area * by_box**2, (kind, area * by_outline**2, area * by_box**2)
 
 
@@ -196,11 +198,9 @@ def test_twenty_thousand_small_charts_take_a_step_for_each_shelf(monkeypatch):
         return starts
 
     monkeypatch.setattr(shelves, "_full", counted)
-    monkeypatch.setitem(sys.modules, "rpack", type(sys)("rpack"))  # without any function: it is not asked
-    found = pack_charts(charts, 0.005)
+    found = pack_charts(charts, PlaceOptions(margin=0.005))
     assert len(shelved) < 200 and max(shelved) < 600
-    scale = found[0].scale
-    low = np.array([complex(*place.center) for place in found])
+    scale, low = found.scale[0], found.center
     high = low + scale * np.array([z[2] for z, _ in charts])
     margin = kept_margin(0.005, len(charts))
     assert min(low.real.min(), low.imag.min()) >= margin
@@ -236,13 +236,6 @@ def test_large_charts_and_many_small_ones():
         assert least_distance(z[corners], tiny) >= margin
 
 
-def test_a_missing_library_is_told(monkeypatch):
-    monkeypatch.setitem(sys.modules, "rpack", None)
-    with pytest.raises(MissingDependencyError, match="needs rectangle-packer"):
-        pack_charts([L_SHAPE, L_SHAPE], 0.0)
-    assert len(pack_charts([L_SHAPE], 0.0)) == 1 and pack_charts([]) == []
-
-
 def test_coverage_is_the_area_of_the_images():
     V, F = disjoint(plate(5, 5), plate(3, 8))
     u = cuv.unwrap(V, F, margin=0.01)
@@ -256,12 +249,149 @@ def test_coverage_is_the_area_of_the_images():
     assert cuv.unwrap_numbers(apart, uv=0.5 + 0.25 * apart.uv).coverage > 0.0
 
 
-def test_of_places_as_low_a_chart_takes_the_one_that_leaves_the_least_room_below() -> None:
-    """A wall, a gap of two cells, a plateau; two cells that bridge the gap or lie on the plateau."""
-    runs = [(0, 0, 0, 5), (0, 1, 0, 1), (0, 1, 3, 5), (0, 2, 0, 1), (0, 2, 3, 5), (1, 0, 0, 2)]
-    owner, row, start, stop = np.array(runs).T
-    found = Footprints(owner, row, start, stop, columns=np.array([5, 2]), rows=np.array([3, 1]), around=0.0)
-    placed = pack_cells(found, 5)
-    assert placed is not None
-    np.testing.assert_array_equal(placed, [[0, 3], [0, 4]])
-    assert pack_cells(found, 4) is None
+def boundary_pairs(places, charts):
+    """Triangles of each placed chart, (3, m)."""
+    return [z[c] if c.size else np.tile(z, (3, 1)) for z, (_, c) in zip(places, charts, strict=True)]
+
+
+@pytest.mark.parametrize("shape", ["outline", "convex", "box"])
+@pytest.mark.parametrize("rotation", ["quarters", "axes", "any"])
+@pytest.mark.parametrize("kind", SETS)
+def test_turned_charts_lie_apart_and_keep_their_shapes(kind, rotation, shape):
+    charts = SETS[kind]
+    margin = 0.004
+    places = placed(charts, margin, margin_method="fraction", pack_rotation=rotation, pack_shape=shape)
+    every = np.concatenate(places)
+    assert min(every.real.min(), every.imag.min()) >= margin
+    assert max(every.real.max(), every.imag.max()) <= 1.0 - margin
+    scales = []
+    for (z, _), there in zip(charts, places, strict=True):  # a turn and one scale: no mirror, no stretch
+        if np.ptp(np.abs(z - z[0])) > 0.1:
+            k = np.argmax(np.abs(z - z[0]))
+            factor = (there[k] - there[0]) / (z[k] - z[0])
+            np.testing.assert_allclose(there, there[0] + factor * (z - z[0]), atol=1e-12)
+            scales.append(abs(factor))
+            if rotation == "quarters":
+                assert abs(factor**4 / abs(factor) ** 4 - 1.0) < 1e-12
+    assert np.ptp(scales) < 1e-12
+    triangles = boundary_pairs(places, charts)
+    for i in range(len(charts)):
+        for j in range(i):
+            assert least_distance(triangles[i], triangles[j]) >= 2.0 * margin
+
+
+def coverage(charts, **options):
+    found = pack_charts(charts, PlaceOptions(**options))
+    return 0.5 * sum(double_area(*chart) for chart in charts) * found.scale[0] ** 2
+
+
+def test_what_is_allowed_is_used():
+    """Turning and bays fill more of the square: strips at a slant, which only turning lays together."""
+    slanted = [(z * np.exp(0.6j), corners) for z, corners in [rectangle(1.0, 0.1 + 0.01 * i) for i in range(12)]]
+    straight = {r: coverage(slanted, margin=0.002, pack_rotation=r) for r in ("none", "quarters", "axes", "any")}
+    assert straight["axes"] > 1.1 * straight["none"] and straight["any"] > 1.1 * straight["none"]
+    assert min(straight.values()) > 0.4 and straight["axes"] > 0.75
+    shapes = {s: coverage(SETS["L shapes"], margin=0.002, pack_shape=s) for s in ("outline", "convex", "box")}
+    assert shapes["outline"] > 1.5 * shapes["box"] and shapes["outline"] > shapes["convex"] > shapes["box"]
+    ring = [grid_chart([(x, y) for x in range(9) for y in range(9) if x % 8 == 0 or y % 8 == 0]), rectangle(6.0, 6.0)]
+    assert coverage(ring, margin=0.01) > 0.7  # one within the other's hole: the ring's square, less margins
+
+
+def test_a_hundred_stars_fill_two_thirds():
+    rng = np.random.default_rng(0)
+    charts = [star(rng, r) for r in rng.lognormal(0.0, 0.5, 100)]
+    turned, straight = (coverage(charts, margin=0.0005, pack_rotation=r) for r in ("any", "none"))
+    assert turned > 0.66 and straight > 0.6
+    assert straight > 1.2 * coverage(charts, margin=0.0005, pack_shape="box")
+
+
+def test_margins_are_those_of_blender():
+    """Four unit squares. `tests/blender/test_packing.py` holds the same numbers against Blender's own packer."""
+    squares = [rectangle(1.0, 1.0)] * 4
+    for method, margin, around in (
+        ("fraction", 0.02, 0.02),
+        ("pixels", 10.0, 10.0 / 512),
+        ("add", 0.1, 0.1 / 2.4),  # around both of two squares in a row: 2 + 4 * 0.1
+        ("scaled", 0.5, 0.2 / 2.8),  # a tenth of four squares' sides, half of it
+    ):
+        places = placed(squares, margin, margin_method=method, image_size=512)
+        low, high = (np.array([f(z.real) + 1j * f(z.imag) for z in places]) for f in (np.min, np.max))
+        right, up = low.real - high.real[:, None], low.imag - high.imag[:, None]
+        apart = np.maximum(np.maximum(right, right.T), np.maximum(up, up.T)) + np.diag([np.inf] * 4)
+        assert min(low.real.min(), low.imag.min()) == pytest.approx(around, abs=0.003), method
+        assert apart.min() == pytest.approx(2.0 * around, abs=0.003), method
+        assert min(low.real.min(), low.imag.min()) > around - 1e-4 and apart.min() > 2 * around - 2e-4
+
+
+@pytest.mark.parametrize("rotation", ["none", "any"])
+def test_what_does_not_fill_the_square_lies_in_its_lower_left_corner(rotation):
+    for charts in (SETS["strips"], [star(np.random.default_rng(i), 1.0) for i in range(3)], [L_SHAPE, L_SHAPE]):
+        every = np.concatenate(placed(charts, 0.01, pack_rotation=rotation))
+        assert [every.real.min(), every.imag.min()] == pytest.approx([0.01, 0.01], abs=1e-3)
+
+
+def test_scales_and_tiles_are_kept():
+    charts = [rectangle(0.4, 0.2), rectangle(0.3, 0.3), rectangle(5.0, 0.1)]
+    found = pack_charts(charts, PlaceOptions(margin=0.01, keep_scale=True, tile=1023))
+    assert found.scale.tolist() == [1.0, 1.0, 1.0]
+    assert found.center.real.min() == pytest.approx(2.01) and found.center.imag.min() == pytest.approx(2.01)
+    V = np.array([[0, 0, 0], [3, 0, 0], [3, 2, 0], [0, 2, 0]], dtype=float)
+    u = unwrap(V, [[0, 1, 2, 3]], shape="free", keep_scale=True)
+    assert np.ptp(u.uv, axis=0) == pytest.approx([3.0, 2.0])
+    u = unwrap(V, [[0, 1, 2, 3]], tile=1012)
+    assert u.uv.min() >= 1.0 and u.uv.max() <= 2.0
+
+
+def test_grids_in_batches_are_the_same(monkeypatch):
+    charts = SETS["stars"]
+    whole = placed(charts, 0.005)
+    monkeypatch.setattr(footprints_module, "CELLS_AT_ONCE", 1000)
+    for one, other in zip(whole, placed(charts, 0.005), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_long_thin_charts_are_packed_on_coarser_grids(monkeypatch):
+    """A thousand diagonals, each with the box of a whole grid: what is looked at stays within bounds."""
+    looked = []
+    first_free = FreeCells.first_free
+    monkeypatch.setattr(
+        FreeCells, "first_free", lambda self, *given: looked.append(self.side) or first_free(self, *given)
+    )
+    charts = [(np.array([0, 1 + 1j, 1.001 + 1j]) * (1 + 1e-3 * i), np.array([[0], [1], [2]])) for i in range(1000)]
+    placed(charts, 0.0001)
+    assert max(looked) < 1500
+
+
+def test_free_places_are_those_that_trying_finds():
+    """Against every place tried by itself."""
+    rng = np.random.default_rng(5)
+    for side in (21, 64):
+        cells, filled = FreeCells(side, 6), np.zeros((side, side), dtype=bool)
+        for _ in range(12):
+            shape = rng.random((rng.integers(1, 12), rng.integers(1, 40))) < 0.7
+            shape[0, 0] = shape[-1, -1] = True
+            shape = shape[:side, :side]
+            edge = np.diff(np.pad(shape, ((0, 0), (1, 1))).astype(int), axis=1)
+            row, start = np.nonzero(edge == 1)
+            chart = Stencil(row, start, np.nonzero(edge == -1)[1], shape.shape[1], shape.shape[0])
+            found = cells.first_free(chart, side)
+            for y in range(side - shape.shape[0] + 1):
+                free = [
+                    x
+                    for x in range(side - shape.shape[1] + 1)
+                    if not (filled[y : y + shape.shape[0], x : x + shape.shape[1]] & shape).any()
+                ]
+                assert found[y] == (free[0] if free else NOWHERE)
+            y = int(found.argmin())
+            if found[y] < NOWHERE:
+                cells.fill(chart, int(found[y]), y, 6)
+                filled[y : y + shape.shape[0], found[y] : found[y] + shape.shape[1]] |= shape
+
+
+def test_charts_grow_around_the_corner_and_what_does_not_fit_is_told():
+    wide = Stencil(np.array([0]), np.array([0]), np.array([5]), 5, 1)
+    small = Stencil(np.array([0]), np.array([0]), np.array([2]), 2, 1)
+    places = pack_cells([[small, wide, small]], 5)
+    assert places is not None
+    assert (places.column.tolist(), places.row.tolist()) == ([0, 0, 0], [1, 0, 2])
+    assert pack_cells([[small, wide]], 4) is None

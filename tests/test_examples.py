@@ -18,7 +18,19 @@ FUNCTIONS = [name for name in cuv.__all__ if getattr(getattr(cuv, name), "__modu
 ERRORS = {
     name for name in FUNCTIONS if isinstance(getattr(cuv, name), type) and issubclass(getattr(cuv, name), Exception)
 }
-RESULTS = {"AugmentedLagrangianStep", "DiskMap", "FreeMap", "NewtonStep", "RectangleMap", "Repair", "SphereMap"}
+RESULTS = {
+    "AugmentedLagrangianStep",
+    "DiskIsland",
+    "DiskMap",
+    "FreeMap",
+    "IslandSurface",
+    "NewtonStep",
+    "RectangleMap",
+    "Repair",
+    "SphereMap",
+    "StoredSphere",
+    "UVIslands",
+}
 SHOWN_ELSEWHERE = RESULTS | {"equirectangular", "octahedral"} | ERRORS - {"ConformalUVError"}
 
 

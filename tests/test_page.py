@@ -108,7 +108,6 @@ def test_charts_are_shown_where_the_texture_has_them_cut_at_their_seams() -> Non
     cube = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
     sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     seams = [[0, 1], [1, 3], [3, 2], [2, 0]]  # one side for itself
-    pytest.importorskip("rpack")
     result = cuv.unwrap(cube, sides, seams=seams, shape="free")
     mapped = mapped_mesh(result)
     assert mapped.shape == "charts" and len(result.charts) == 2

@@ -123,3 +123,25 @@ def test_flipped_polygons_by_exact_signs() -> None:
     assert cuv.flipped_polygons(mesh, hair).tolist() == []
     hair[[5, 6]] = np.nan
     assert cuv.flipped_polygons(mesh, hair).tolist() == [1]
+
+
+def test_polygon_angle_errors_by_the_arc_cosine():
+    """Triangles by their angles; a quad as the worse of its triangles; a mirror image as what it mirrors."""
+    rng = np.random.default_rng(3)
+    V, uv = rng.normal(size=(30, 3)), rng.normal(size=(30, 2))
+    mesh = cuv.PolygonMesh(V, np.arange(30), np.arange(0, 31, 3))
+
+    def angles(points):
+        sides = np.roll(points, -1, axis=1) - points, np.roll(points, 1, axis=1) - points
+        cosine = (sides[0] * sides[1]).sum(axis=2) / np.prod([np.linalg.norm(side, axis=2) for side in sides], axis=0)
+        return np.degrees(np.arccos(cosine))
+
+    expected = np.abs(angles(V.reshape(-1, 3, 3)) - angles(uv.reshape(-1, 3, 2))).max(axis=1)
+    np.testing.assert_allclose(cuv.polygon_angle_errors(mesh, uv), expected, atol=1e-9)
+    square = cuv.PolygonMesh(np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]]), np.arange(4), np.array([0, 4]))
+    assert cuv.polygon_angle_errors(square, square.V[:, [1, 0]]) == pytest.approx([0.0], abs=1e-9)
+    sheared = square.V[:, :2] @ np.array([[1.0, 0.0], [1.0, 1.0]])
+    assert cuv.polygon_angle_errors(square, sheared)[0] == pytest.approx(45.0)
+    broken = square.V[:, :2].copy()
+    broken[0] = np.nan
+    assert np.isfinite(cuv.polygon_angle_errors(square, broken)).all()

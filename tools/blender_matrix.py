@@ -17,6 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from .blender_tool import BlenderTool
 from .errors import ReleaseError
 from .extension_builds import Build
 from .versions import agreed_version
@@ -51,12 +52,12 @@ def main(argv: list[str] | None = None) -> int:
     for version in arguments.version:
         try:
             extension = release_zip(version, arguments.zips)
+            python = environment(version, arguments.folder.resolve(), interpreters)
+            print(f"bpy {version}, {extension.name}", flush=True)
+            codes[version] = tested(python, extension)
         except ReleaseError as error:
             sys.stderr.write(f"{error}\n")
             return 1
-        python = environment(version, arguments.folder.resolve(), interpreters)
-        print(f"bpy {version}, {extension.name}", flush=True)
-        codes[version] = tested(python, extension)
     for version, code in codes.items():
         print(f"bpy {version}: {'passed' if code == 0 else 'FAILED'}")
     return 1 if any(codes.values()) else 0
@@ -73,7 +74,10 @@ def release_zip(version: str, folder: Path) -> Path:
 
 
 def tested(python: Path, extension: Path) -> int:
-    """Exit code of the tests, on the extension installed into a user folder of its own."""
+    """Exit code of the tests, on the extension installed into a user folder of its own. Raises ReleaseError where this
+    Blender does not find it valid.
+    """
+    BlenderTool(str(python)).validate(extension)
     with tempfile.TemporaryDirectory() as resources:
         variables = {**os.environ, "BLENDER_USER_RESOURCES": resources, "CONFORMAL_UV_BPY_PYTHON": str(python)}
         script = REPOSITORY / "tests" / "blender" / "installed_extension.py"

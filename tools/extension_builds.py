@@ -27,7 +27,6 @@ WHEELS = {
     "scipy": {"cp311": "1.15.3", "cp313": "1.18.1"},
     "cvxopt": {"cp311": "1.3.3", "cp313": "1.3.3"},
     "mapbox-earcut": {"cp311": "2.1.0", "cp313": "2.1.0"},
-    "rectangle-packer": {"cp311": "2.1.1", "cp313": "2.1.1"},
 }
 ELSE = {  # where there is another version, or none, on the oldest system that Blender runs on
     ("scipy", "cp311", "windows-arm64"): "",
@@ -38,8 +37,6 @@ ELSE = {  # where there is another version, or none, on the oldest system that B
     ("cvxopt", "cp313", "macos-arm64"): "",
     ("cvxopt", "cp311", "macos-x64"): "1.3.2",
     ("cvxopt", "cp313", "macos-x64"): "",
-    ("rectangle-packer", "cp311", "windows-arm64"): "",
-    ("rectangle-packer", "cp313", "windows-arm64"): "",
 }
 
 

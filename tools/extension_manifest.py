@@ -28,7 +28,7 @@ blender_version_min = "{first}"
 
 TAIL = """
 [permissions]
-files = "Read and write the files that its command line names"
+files = "Save presets, and read and write files that its command names"
 """
 
 

@@ -1,57 +1,73 @@
-"""Charts packed on a grid of cells, as blocks fall in a well known game: each comes to rest on what lies there already.
-
-B. Levy, S. Petitjean, N. Ray, J. Maillot, "Least squares conformal maps for automatic texture atlas generation",
-SIGGRAPH 2002, section 4.2. No two charts have a corner of a cell in common, so that a cell is free between any two.
-"""
+"""Charts packed on a grid of cells, the largest first, each into the free place that is nearest to a corner."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .footprints import Footprints
+from .free_cells import NOWHERE, FreeCells, Stencil
 
-__all__ = ["pack_cells"]
+__all__ = ["CellPlaces", "pack_cells", "stencils"]
 
 Ints = NDArray[np.int64]
 
+LIKE = 20.0  # charts whose sizes differ by a 20th are alike: what cells make of them is no order
 
-def pack_cells(found: Footprints, side: int) -> tuple[Ints, Ints] | None:
-    """Columns and rows (k,) by which charts are moved into a square of `side` cells; None where they do not fit so.
 
-    The highest go first, each to where its top comes lowest, and of these places to where it leaves the least room
-    below.
+@dataclass(frozen=True, eq=False)
+class CellPlaces:
+    """Where k charts lie: the way each is turned, and the column and row that its grid begins in."""
+
+    way: Ints
+    column: Ints
+    row: Ints
+
+
+def stencils(found: Footprints) -> list[Stencil]:
+    """Of each chart."""
+    first = np.searchsorted(found.owner, np.arange(len(found.columns) + 1))
+    return [
+        Stencil(found.row[a:b], found.start[a:b], found.stop[a:b], columns, rows)
+        for a, b, columns, rows in zip(first[:-1], first[1:], found.columns.tolist(), found.rows.tolist(), strict=True)
+    ]
+
+
+def pack_cells(ways: Sequence[Sequence[Stencil]], side: int) -> CellPlaces | None:
+    """Places in a square of `side` cells; None where charts do not fit so.
+
+    No two charts have a cell in common. Each goes to where the square around it and the corner (0, 0) is least, and of
+    such places to the lowest: charts grow around the corner, and small ones come into the bays and holes that are left.
+
+    Parameters
+    ----------
+    ways : sequence of sequences of k stencils
+        Each chart may lie in any of these ways.
     """
-    first, bottom, top = _profiles(found)
-    free = np.zeros(side + 1, dtype=np.int64)  # the lowest free row of corners, in each column of corners
-    column, row = np.zeros(len(found.columns), dtype=np.int64), np.zeros(len(found.columns), dtype=np.int64)
-    for chart in np.lexsort((-found.columns, -found.rows)).tolist():
-        here = slice(first[chart], first[chart + 1])
-        width = first[chart + 1] - first[chart]
-        if width > side + 1:
+    count = len(ways[0])
+    powers = np.max([[stencil.powers for stencil in way] for way in ways], axis=0)
+    size = np.array([(stencil.stop - stencil.start).sum() for stencil in ways[0]])
+    order = np.argsort(-np.round(LIKE * np.log(size)), kind="stable")
+    most = np.maximum.accumulate(powers[order][::-1])[::-1].tolist()  # of this chart and those after it
+    cells, extent = FreeCells(side, most[0]), 0
+    places = CellPlaces(*(np.zeros(count, dtype=np.int64) for _ in range(3)))
+    for turn, chart in enumerate(order.tolist()):
+        nearest, best = NOWHERE * (side + 1), None
+        for number, way in enumerate(ways):
+            column = cells.first_free(way[chart], extent)
+            row = np.arange(len(column))
+            far = np.maximum(column + way[chart].columns, row + way[chart].rows)
+            reach = np.where(column < NOWHERE, far * (side + 1) + row, NOWHERE * (side + 1))
+            at = int(reach.argmin()) if len(reach) else 0
+            if len(reach) and reach[at] < nearest:
+                nearest, best = int(reach[at]), (number, int(column[at]), at)
+        if best is None:
             return None
-        under = np.lib.stride_tricks.sliding_window_view(free, width)
-        rest = np.maximum((under - bottom[here]).max(axis=1), 0)
-        lowest = np.flatnonzero(rest == rest.min())
-        left = (rest[lowest, None] + bottom[here] - under[lowest]).sum(axis=1)
-        at = int(lowest[np.argmin(left)])
-        column[chart], row[chart] = at, rest[at]
-        if row[chart] + found.rows[chart] > side:
-            return None
-        np.maximum(free[at : at + width], row[chart] + top[here] + 1, out=free[at : at + width])
-    return column, row
-
-
-def _profiles(found: Footprints) -> tuple[Ints, Ints, Ints]:
-    """Lowest and highest row of corners in each column of corners, chart after chart, and where each chart begins.
-
-    Every column between a chart's first and last is covered, for its runs hang together.
-    """
-    first = np.concatenate(([0], np.cumsum(found.columns + 1)))
-    length = found.stop - found.start + 1
-    begin = first[found.owner] + found.start
-    place = np.arange(length.sum()) + np.repeat(begin - np.cumsum(length) + length, length)
-    bottom, top = np.full(first[-1], np.iinfo(np.int32).max, dtype=np.int64), np.full(first[-1], -1, dtype=np.int64)
-    np.minimum.at(bottom, place, np.repeat(found.row, length))
-    np.maximum.at(top, place, np.repeat(found.row + 1, length))
-    return first, bottom, top
+        places.way[chart], places.column[chart], places.row[chart] = best
+        stencil = ways[best[0]][chart]
+        cells.fill(stencil, best[1], best[2], most[min(turn + 1, count - 1)])
+        extent = max(extent, best[1] + stencil.columns, best[2] + stencil.rows)
+    return places

@@ -16,6 +16,7 @@ Ints = NDArray[np.int64]
 Real = NDArray[np.float64]
 
 ROWS_AT_ONCE = 1_000_000  # of triangles: bounds the memory
+CELLS_AT_ONCE = 1 << 22  # of all charts' grids, likewise
 ROUNDING = 1e-9  # of a cell; positions are rounded to far less
 
 
@@ -43,10 +44,33 @@ class Footprints:
 
 def footprints(outlines: Outlines, cell: float, around: float) -> Footprints:
     """Cells of side `cell` with a point that is less than `around` cells to the side of and above the chart's."""
-    around = around + ROUNDING
     columns, rows = (
-        np.ceil(size / cell + 2.0 * around).astype(np.int64) for size in (outlines.size.real, outlines.size.imag)
+        np.ceil(size / cell + 2.0 * (around + ROUNDING)).astype(np.int64)
+        for size in (outlines.size.real, outlines.size.imag)
     )
+    batch = np.cumsum((columns + 1) * rows) // CELLS_AT_ONCE
+    parts = (
+        [_footprints(outlines, cell, around, columns, rows)]
+        if batch[-1] == batch[0]
+        else [
+            _footprints(outlines.chosen(batch == one), cell, around, columns[batch == one], rows[batch == one])
+            for one in np.unique(batch)
+        ]
+    )
+    return _joined(parts)
+
+
+def _joined(parts: list[Footprints]) -> Footprints:
+    before = np.cumsum([0] + [len(part.columns) for part in parts])
+    owner = np.concatenate([part.owner + count for part, count in zip(parts, before, strict=False)])
+    row, start, stop, columns, rows = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("row", "start", "stop", "columns", "rows")
+    )
+    return Footprints(owner, row, start, stop, columns, rows, parts[0].around)
+
+
+def _footprints(outlines: Outlines, cell: float, around: float, columns: Ints, rows: Ints) -> Footprints:
+    around = around + ROUNDING
     stride = columns + 1  # a free cell ends each row
     first = np.concatenate(([0], np.cumsum(stride * rows)))
     change = np.zeros(first[-1] + 1, dtype=np.int64)

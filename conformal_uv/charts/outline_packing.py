@@ -7,75 +7,101 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .cell_packing import pack_cells
-from .footprints import Footprints, footprints
+from .cell_packing import pack_cells, stencils
+from .footprints import footprints
 from .outlines import Outlines
+from .spacing import Spacing
 
-__all__ = ["pack_by_outline"]
+__all__ = ["Packed", "pack_by_outline"]
 
-Ints = NDArray[np.int64]
+Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-FEWEST_CELLS, MOST_CELLS = 320, 640  # along the square's side; the time grows with their square
-CELLS_OF_CHART = 30  # across one, where all are alike
-PARTS = (0.5, 0.7, 1.0)  # of these cells, in turn: a coarse grid may pack by chance what a fine one does not
-PRECISION = 200  # the search for the side ends at this part of it
-
-
-def pack_by_outline(outlines: Outlines, margin: float, enough: float) -> tuple[Complex, float] | None:
-    """Where the corners of the charts' boxes come (k,), and the side of the square around them.
-
-    Charts keep `margin` times the side from each other and from the square's sides. None where no side less than
-    `enough` is found.
-    """
-    cells = np.clip(CELLS_OF_CHART * np.sqrt(len(outlines)), FEWEST_CELLS, MOST_CELLS)
-    best = None
-    for part in PARTS:
-        found = _packed(outlines, enough / int(part * cells), margin, enough)
-        if found is not None:
-            best, enough = found, found[1]
-    return best
-
-
-def _packed(outlines: Outlines, cell: float, margin: float, enough: float) -> tuple[Complex, float] | None:
-    """The same on one grid."""
-    grid, best = _Grid.of(outlines, cell, margin * enough), None
-    least, most = grid.least(), grid.cells_within(enough)
-    while most - least > max(1, most // PRECISION):
-        middle = (least + most) // 2
-        found = pack_cells(grid.found, middle)
-        if found is None:
-            least = middle
-        else:
-            best, most = grid.places(*found), grid.extent(*found)
-    return best
+CELLS_OF_CHART = 20  # across one, where all are alike
+FEWEST_CELLS, MOST_CELLS = 512, 640  # along the square's side
+COARSE, FINE = 0.5, 2.0  # of these cells: to know the side that margins are a part of, and once ways are chosen
+MOST_LOOKUPS = 1e10  # bytes looked at; long thin charts are packed on coarser grids
+COARSEST = 96
+FIRST_WAYS = 4  # the quarter turns
+FEW = 64  # charts, of which all ways are tried from the first
+MANY = 400  # charts, up to which the opposite corner is tried, too
+HALF_TURN = np.pi
 
 
 @dataclass(frozen=True, eq=False)
-class _Grid:
-    """Charts on a grid; a cell is always free between two of them, and `found.around` cells are kept at each."""
+class Packed:
+    """Charts in a square.
 
-    found: Footprints
-    cell: float
-    outside: float  # to the sides of the square, beyond what is kept around each chart
+    Attributes
+    ----------
+    angle : (k,) float64
+        By which each is turned about the origin of its plane.
+    origin : (k,) complex128
+        Where this origin comes to lie.
+    side : float
+        Of the square.
+    """
 
-    @classmethod
-    def of(cls, outlines: Outlines, cell: float, gap: float) -> _Grid:
-        found = footprints(outlines, cell, max(0.0, 0.5 * (gap / cell - 1.0)))
-        return cls(found, cell, max(0.0, gap - found.around * cell))
+    angle: Real
+    origin: Complex
+    side: float
 
-    def least(self) -> int:
-        """Cells along a side that is too short."""
-        area = np.sqrt((self.found.stop - self.found.start).sum())
-        return int(max(area, self.found.columns.max(), self.found.rows.max())) - 1
 
-    def cells_within(self, side: float) -> int:
-        return int((side - 2.0 * self.outside) / self.cell)
+def pack_by_outline(outlines: Outlines, spacing: Spacing, angles: Real, enough: float) -> Packed | None:
+    """Charts that are turned in one of several ways each, (ways, k); None where no side below `enough` is found."""
+    best, from_far = None, False
+    for part, given, far in _passes(angles):
+        found = _packed(outlines, given, spacing, enough, enough / _cells(outlines, len(given), enough, part), far)
+        if found is not None and found.side < enough:
+            best, enough, from_far = found, found.side, far
+    if best is not None and len(angles) > 1:
+        fine = enough / _cells(outlines, 1, enough, FINE)
+        found = _packed(outlines, best.angle[None], spacing, enough, fine, from_far)
+        best = best if found is None or found.side >= enough else found
+    return best
 
-    def extent(self, column: Ints, row: Ints) -> int:
-        return int(max((column + self.found.columns).max(), (row + self.found.rows).max()))
 
-    def places(self, column: Ints, row: Ints) -> tuple[Complex, float]:
-        inside = self.found.around * self.cell + self.outside
-        place = self.cell * (column + 1j * row) + inside * (1 + 1j)
-        return place, self.cell * self.extent(column, row) + 2.0 * self.outside
+def _passes(angles: Real) -> list[tuple[float, Real, bool]]:
+    """Part of the cells, ways, and whether charts grow from the far corner: in turn."""
+    ways, count = angles.shape
+    first = angles[:FIRST_WAYS]
+    if count <= FEW:
+        return [(COARSE, first, False), (1.0, angles, False), (1.0, angles, True)]
+    passes = [(COARSE, first, False), (1.0, first, False)]
+    if count <= MANY:
+        passes += [(1.0, first, True)]
+    if ways > FIRST_WAYS:
+        passes += [(1.0, angles, False)]
+    return passes
+
+
+def _cells(outlines: Outlines, ways: int, side: float, part: float) -> int:
+    """Along the side of the square, or this part of them."""
+    cells = part * float(np.clip(CELLS_OF_CHART * np.sqrt(len(outlines)), FEWEST_CELLS, MOST_CELLS))
+    rows = ways * float(outlines.size.imag.sum()) / side  # a lookup takes an eighth of the cells, and a row takes two
+    return int(max(COARSEST, min(cells, (4.0 * MOST_LOOKUPS / max(rows, 1.0)) ** (1.0 / 3.0))))
+
+
+def _packed(
+    outlines: Outlines, angles: Real, spacing: Spacing, enough: float, cell: float, from_far: bool
+) -> Packed | None:
+    """The same on one grid; from the far corner: all turned by half a turn, there and back."""
+    angles = angles + HALF_TURN if from_far else angles
+    ways = [outlines.turned(angle) if angle.any() else outlines for angle in angles]
+    gap = spacing.between(enough)
+    edge = spacing.at_sides * gap
+    found = [stencils(footprints(way, cell, 0.5 * gap / cell)) for way in ways]
+    places = pack_cells(found, int((enough - 2.0 * edge + gap) / cell))
+    if places is None:
+        return None
+    chart = np.arange(len(places.way))
+    low = np.stack([way.low for way in ways])[places.way, chart]
+    size = np.stack([way.size for way in ways])[places.way, chart]
+    corner = cell * (places.column + 1j * places.row)
+    corner -= corner.real.min() + 1j * corner.imag.min()
+    origin, far = corner + edge * (1.0 + 1j) - low, corner + size
+    across, up = far.real.max() + 2.0 * edge, far.imag.max() + 2.0 * edge
+    angle, side = angles[places.way, chart], float(max(across, up))
+    if from_far:
+        return Packed(angle - HALF_TURN, across + 1j * up - origin, side)
+    return Packed(angle, origin, side)

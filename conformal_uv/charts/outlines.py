@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Outlines", "chart_outlines", "disk_outlines", "unit_disk"]
+__all__ = ["Outlines", "chart_outlines", "disk_outlines", "joint_outlines", "unit_disk"]
 
 DISK_SIDES = 64  # of the polygon around a disk: 0.1 % too far out at its corners
 MANY_DISKS = 2000  # from here on a disk is as good as the square around it
@@ -47,6 +47,32 @@ class Outlines:
         point[self.corners] = scale[self.owner]
         return replace(self, z=self.z * point, low=self.low * scale, size=self.size * scale)
 
+    def positions(self) -> list[NDArray[np.complex128]]:
+        """Of each chart's triangles."""
+        return np.split(self.z[self.corners].T.reshape(-1), 3 * self._first_triangles()[1:])
+
+    def turned(self, angle: NDArray[np.float64]) -> Outlines:
+        """Each chart turned by radians (k,) about the origin of its plane."""
+        first = self._first_triangles()
+        z = np.zeros_like(self.z)
+        z[self.corners] = (self.z[self.corners] + self.low[self.owner]) * np.exp(1j * angle)[self.owner]
+        sides = z[self.corners]
+        low = np.minimum.reduceat(sides.real.min(axis=0), first) + 1j * np.minimum.reduceat(
+            sides.imag.min(axis=0), first
+        )
+        high = np.maximum.reduceat(sides.real.max(axis=0), first) + 1j * np.maximum.reduceat(
+            sides.imag.max(axis=0), first
+        )
+        z[self.corners] = sides - low[self.owner]
+        return replace(self, z=z, low=low, size=high - low)
+
+    def boxes(self) -> Outlines:
+        """The boxes around the charts."""
+        return replace(self.chosen(np.zeros(len(self), dtype=bool)).with_boxes(self.size), low=self.low)
+
+    def _first_triangles(self) -> NDArray[np.int64]:
+        return np.searchsorted(self.owner, np.arange(len(self)))
+
     def chosen(self, wanted: NDArray[np.bool_]) -> Outlines:
         """Some of the charts."""
         taken = wanted[self.owner]
@@ -82,6 +108,28 @@ def chart_outlines(charts: Sequence[tuple[NDArray[np.complex128], NDArray[np.int
     first = np.cumsum(count) - count
     corners = np.concatenate(faces, axis=1) + np.repeat(first, triangles)
     return _in_corners(np.concatenate(points), first, count, corners, np.repeat(np.arange(len(points)), triangles))
+
+
+def joint_outlines(z: NDArray[np.complex128], corners: NDArray[np.integer], owner: NDArray[np.int64]) -> Outlines:
+    """Of charts by positions that all share.
+
+    Parameters
+    ----------
+    corners : (3, m) integers
+        Triangles; a position is of one chart only.
+    owner : (m,) int64
+        The chart of each, 0 .. k - 1, each of which has one.
+    """
+    used, place = np.unique(corners, return_inverse=True)
+    place = place.reshape(3, -1)
+    chart = np.empty(len(used), dtype=np.int64)
+    chart[place] = owner
+    order = np.argsort(chart, kind="stable")
+    number = np.empty(len(used), dtype=np.int64)
+    number[order] = np.arange(len(used))
+    count = np.bincount(chart)
+    turn = np.argsort(owner, kind="stable")
+    return _in_corners(z[used[order]], np.cumsum(count) - count, count, number[place[:, turn]], owner[turn])
 
 
 def disk_outlines(radius: NDArray[np.float64]) -> Outlines:

@@ -2,87 +2,83 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import MissingDependencyError
-from .box_packing import pack_by_box
-from .outline_packing import pack_by_outline
-from .outlines import Outlines
+from ..options import PackRotation, PackShape
+from .orientations import angles, hull
+from .outline_packing import Packed, pack_by_outline
+from .outlines import Outlines, chart_outlines
 from .shelves import blocks_of_shelves, square_of_shelves
+from .spacing import Spacing
 
 __all__ = ["pack_outlines"]
 
 Complex = NDArray[np.complex128]
-Packer = Callable[[Outlines, float, float], tuple[Complex, float] | None]
+Real = NDArray[np.float64]
 
-LEAST_MARGIN = 1e-12  # against rounding
-SLACK = 1e-9
-MOST_BY_OUTLINE = 400  # charts for which outlines are packed, one by one
+MOST_BY_OUTLINE = 1000  # charts for which outlines are packed, one by one
 SMALL = 32  # that many in a row fill the square: charts less wide and high go on shelves where there are more
 BLOCK = 4  # side of a block of shelves, in the largest of its charts
 BLOCKS = 8  # at most about that many along the sides of a square of them
 GROWTH = 1.01
 
 
-def pack_outlines(outlines: Outlines, margin: float) -> tuple[Complex, float]:
-    """Where the corners of the charts' boxes come (k,), and the side of the square.
-
-    Charts keep `margin` times the side from each other and from the square's sides.
-
-    Raises
-    ------
-    MissingDependencyError
-        There are several, and rectangle-packer is not installed.
-    """
-    margin = (margin + LEAST_MARGIN) * (1.0 + SLACK)
+def pack_outlines(
+    outlines: Outlines,
+    spacing: Spacing,
+    rotation: PackRotation = PackRotation.NONE,
+    shape: PackShape = PackShape.OUTLINE,
+) -> Packed:
+    """Charts in the least square that is found, none on another."""
     if not np.abs(outlines.size).max() > 0.0:
         outlines = replace(outlines, size=np.full(len(outlines), 1.0 + 1j))
+        rotation = PackRotation.NONE
+    turned = angles(outlines, rotation)
     if len(outlines) == 1:
-        return _alone(outlines.size, margin)
-    packer = _packer()
-    best = _by_shelves(outlines.size, margin)
-    small = _small(outlines.size)
+        return _alone(outlines, spacing, turned[:, 0])
+    flat = outlines.turned(turned[0]) if turned[0].any() else outlines
+    best = _by_shelves(flat, spacing, turned[0])
+    small = _small(flat.size)
     if small.all():
         return best
-    found = _large_and_small(packer, outlines, small, margin, best[1])
+    found = _large_and_small(_seen(outlines, shape), flat, spacing, turned, small, best.side)
     return best if found is None else found
 
 
-def _alone(size: Complex, margin: float) -> tuple[Complex, float]:
-    side = max(float(size.real[0]), float(size.imag[0])) / (1.0 - 2.0 * margin)
-    return 0.5 * (side * (1 + 1j) - size), side
+def _seen(outlines: Outlines, shape: PackShape) -> Outlines:
+    """The charts as the packer is to see them."""
+    if shape is PackShape.OUTLINE:
+        return outlines
+    if shape is PackShape.BOX:
+        return outlines.boxes()
+    rims = [hull(z + low) for z, low in zip(outlines.positions(), outlines.low, strict=True)]
+    fans = [np.array([0 * k, k, k + 1]) for k in (np.arange(1, len(rim) - 1) for rim in rims)]
+    return chart_outlines(list(zip(rims, fans, strict=True)))
 
 
-def _packer() -> Packer:
-    """By boxes, and then by outlines where these take less room."""
-    try:
-        import rpack
-    except ImportError as error:
-        raise MissingDependencyError(
-            'Packing several charts needs rectangle-packer: pip install rectangle-packer, or pass place="disk".'
-        ) from error
-
-    def packer(outlines: Outlines, margin: float, enough: float) -> tuple[Complex, float] | None:
-        boxes = pack_by_box(rpack, outlines.size, margin, enough)
-        found = pack_by_outline(outlines, margin, enough if boxes is None else boxes[1])
-        return boxes if found is None else found
-
-    return packer
+def _alone(outlines: Outlines, spacing: Spacing, angle: Real) -> Packed:
+    """One chart in the middle, turned so that it fills the square best."""
+    ways = [outlines.turned(np.array([one])) if one else outlines for one in angle]
+    across = [float(max(way.size.real[0], way.size.imag[0])) for way in ways]
+    best = int(np.argmin(across))
+    side = spacing.least_side(across[best])
+    return Packed(angle[[best]], 0.5 * (side * (1 + 1j) - ways[best].size) - ways[best].low, side)
 
 
-def _by_shelves(size: Complex, margin: float) -> tuple[Complex, float]:
+def _by_shelves(outlines: Outlines, spacing: Spacing, angle: Real) -> Packed:
     """All boxes on shelves; the side that the margin is a part of is found by trying."""
+    size = outlines.size
     side = float(np.sqrt((size.real * size.imag).sum())) + float(np.abs(size).max())
     while True:
-        gap = margin * side
+        gap = spacing.between(side)
+        edge = spacing.at_sides * gap
         place, extent = square_of_shelves(size + gap * (1 + 1j))
-        if extent + gap <= side:
-            return place + gap * (1 + 1j), side
-        side = GROWTH * (extent + gap)
+        if extent - gap + 2.0 * edge <= side:
+            return Packed(angle, place + edge * (1 + 1j) - outlines.low, side)
+        side = GROWTH * (extent - gap + 2.0 * edge)
 
 
 def _small(size: Complex) -> NDArray[np.bool_]:
@@ -97,20 +93,26 @@ def _small(size: Complex) -> NDArray[np.bool_]:
 
 
 def _large_and_small(
-    packer: Packer, outlines: Outlines, small: NDArray[np.bool_], margin: float, enough: float
-) -> tuple[Complex, float] | None:
+    outlines: Outlines, flat: Outlines, spacing: Spacing, turned: Real, small: NDArray[np.bool_], enough: float
+) -> Packed | None:
     """Large charts packed with blocks of small ones; None where no side less than `enough` is found."""
     if not small.any():
-        return packer(outlines, margin, enough)
-    gap = margin * enough * (1 + 1j)
-    size = outlines.size[small] + gap
+        return pack_by_outline(outlines, spacing, turned, enough)
+    gap = spacing.between(enough) * (1 + 1j)
+    size = flat.size[small] + gap
     side = max(BLOCK * size.real.max(), BLOCK * size.imag.max(), np.sqrt((size.real * size.imag).sum()) / BLOCKS)
     inside, block, around = blocks_of_shelves(size, float(side))
-    found = packer(outlines.chosen(~small).with_boxes(around - gap), margin, enough)
+    straight = np.zeros((len(turned), len(around)))
+    found = pack_by_outline(
+        outlines.chosen(~small).with_boxes(around - gap),
+        spacing,
+        np.concatenate((turned[:, ~small], straight), axis=1),
+        enough,
+    )
     if found is None:
         return None
-    place = np.empty(len(outlines), dtype=np.complex128)
+    angle, origin = turned[0].copy(), np.empty(len(outlines), dtype=np.complex128)
     count = len(outlines) - len(inside)
-    place[~small] = found[0][:count]
-    place[small] = found[0][count:][block] + inside
-    return place, found[1]
+    angle[~small], origin[~small] = found.angle[:count], found.origin[:count]
+    origin[small] = found.origin[count:][block] + inside - flat.low[small]
+    return Packed(angle, origin, found.side)

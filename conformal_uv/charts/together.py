@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..options import Place
+from ..options import PlaceOptions
 from .chart_list import ChartList
-from .outlines import unit_disk
-from .packing import placements
+from .outlines import Outlines, joint_outlines, unit_disk
+from .packing import ChartShape, Placements, placements
 from .unwrapped import Unwrapped
 
 __all__ = ["pack_together"]
 
 
 def pack_together(
-    results: Sequence[Unwrapped], wanted: Sequence[NDArray[np.bool_]], margin: float | None = None
+    results: Sequence[Unwrapped],
+    wanted: Sequence[NDArray[np.bool_]],
+    margin: float | None = None,
+    **options: Any,
 ) -> list[NDArray[np.float64]]:
     """Texture coordinates of several meshes whose charts share one unit square.
 
@@ -30,17 +34,14 @@ def pack_together(
     wanted : sequence of (c,) bool
         The charts of each result that are to be placed, mapped ones.
     margin : float, optional
-        Between disks and to the sides, as in `unwrap`.
+        Between charts and to the sides, as in `unwrap`.
+    margin_method, image_size, pack_rotation, pack_shape, keep_scale, tile
+        As in `unwrap`.
 
     Returns
     -------
     list of (k, 2) float64
         Of every polygon corner of each result; others than the wanted charts' as they are in the disk.
-
-    Raises
-    ------
-    MissingDependencyError
-        There are several charts and rectangle-packer is not installed.
 
     Examples
     --------
@@ -51,37 +52,54 @@ def pack_together(
     >>> bool(min(one.min(), other.min()) >= 0.0 and max(one.max(), other.max()) <= 1.0)
     True
     """
+    where = PlaceOptions(margin=margin, **options)
     taken = [np.flatnonzero(mask) for mask in wanted]
     lists = [result.charts for result in results]
     area = np.concatenate([charts.surface_areas()[own] for charts, own in zip(lists, taken, strict=True)])
-    largest = float(area.max(initial=0.0))
+    largest = 1.0 if where.keep_scale else float(area.max(initial=0.0))
     image = [charts.image_areas(result.uv)[own] for result, charts, own in zip(results, lists, taken, strict=True)]
-    shapes = None
-    if not all(charts.solutions.is_disk[own].all() for charts, own in zip(lists, taken, strict=True)):
-        shapes = [
-            _shape(charts, number, result.uv)
-            for result, charts, own in zip(results, lists, taken, strict=True)
-            for number in own.tolist()
-        ]
-    placed = placements(Place.FIT, margin, area / largest if largest > 0.0 else area, np.concatenate(image), shapes)
+    shapes = _shapes(results, taken)
+    placed = placements(where, area / largest if largest > 0.0 else area, np.concatenate(image), shapes)
     out, first = [], 0
     for result, charts, own in zip(results, lists, taken, strict=True):
-        center, scale = np.zeros(len(charts), dtype=np.complex128), np.ones(len(charts))
-        center[own] = placed.center[first : first + len(own)]
-        scale[own] = placed.scale[first : first + len(own)]
+        here = Placements.untouched(len(charts))
+        here.put(own, placed.part(slice(first, first + len(own))))
         moved = np.zeros(len(charts), dtype=bool)
         moved[own] = True
-        here = moved[charts.chart_of_triangle]
-        corner, chart = charts.corner[here], charts.chart_of_triangle[here][:, None]
+        inside = moved[charts.chart_of_triangle]
+        corner, chart = charts.corner[inside], charts.chart_of_triangle[inside][:, None]
         uv = result.uv.copy()
-        z = center[chart] + scale[chart] * result.uv[corner].view(np.complex128)[..., 0]
+        z = here.placed(result.uv[corner].view(np.complex128)[..., 0], chart)
         uv[corner] = np.stack((z.real, z.imag), axis=2)
         out.append(uv)
         first += len(own)
     return out
 
 
-def _shape(charts: ChartList, number: int, uv: NDArray[np.float64]) -> tuple[NDArray[np.complex128], NDArray[np.int64]]:
+def _shapes(results: Sequence[Unwrapped], taken: list[NDArray[np.int64]]) -> Outlines | list[ChartShape] | None:
+    """What covers some charts of each result; None where all are disks."""
+    disks = np.concatenate([one.charts.solutions.is_disk[own] for one, own in zip(results, taken, strict=True)])
+    if disks.all():
+        return None
+    if disks.any():
+        return [
+            _shape(one.charts, number, one.uv)
+            for one, own in zip(results, taken, strict=True)
+            for number in own.tolist()
+        ]
+    corners, owners, first, before = [], [], 0, 0
+    for one, own in zip(results, taken, strict=True):
+        number = np.full(len(one.charts), -1)
+        number[own] = before + np.arange(len(own))
+        owner = number[one.charts.chart_of_triangle]
+        corners.append(one.charts.corner[owner >= 0].T + first)
+        owners.append(owner[owner >= 0])
+        first, before = first + len(one.uv), before + len(own)
+    uv = np.ascontiguousarray(np.concatenate([one.uv for one in results]))
+    return joint_outlines(uv.view(np.complex128).reshape(-1), np.concatenate(corners, axis=1), np.concatenate(owners))
+
+
+def _shape(charts: ChartList, number: int, uv: NDArray[np.float64]) -> ChartShape:
     """Positions and triangles that cover the chart: those of the whole disk, or its own."""
     if charts.solutions.is_disk[number]:
         return unit_disk()

@@ -46,6 +46,12 @@ def unwrap(
     backend: str = "auto",
     place: str = "fit",
     margin: float | None = None,
+    margin_method: str = "between",
+    image_size: int = 1024,
+    pack_rotation: str = "none",
+    pack_shape: str = "outline",
+    keep_scale: bool = False,
+    tile: int = 1001,
     callback: Callback | None = None,
 ) -> Unwrapped:
     """Split a polygon mesh into charts and map each conformally onto a disk, or to another shape.
@@ -106,9 +112,22 @@ def unwrap(
         "disk": every chart on the unit disk, other shapes in the middle of [-1, 1]^2. "fit" and "pack": in the unit
         square; one chart fills it, several are packed, their areas in the same proportion as on the surface.
     margin : float, optional
-        Least distance between disks and to the sides of the square, by default 0.005 between several and none about
+        Least distance between charts and to the sides of the square, by default 0.005 between several and none about
         one, which then lies at 0.5 + 0.5 (x, y); with very many charts, a quarter of a chart's
         share of the side if that is less.
+    margin_method : {"between", "fraction", "pixels", "add", "scaled"}
+        What `margin` is. "between": as above. The others as Blender means its margins, kept around every chart, so that
+        two of them keep twice as much: a fraction of the side, pixels of an image of `image_size`, a length on the
+        surface, or that times a tenth of the sum of the mean sides of the charts' boxes there.
+    pack_rotation : {"none", "quarters", "axes", "any"}
+        How charts may be turned to be packed: not at all, by quarters, lying along the axes, or in 16 ways and more
+        (of more than 64 charts each in 12; more than 150 lie along the axes).
+    pack_shape : {"outline", "convex", "box"}
+        What is packed of a chart; with "outline" others come to lie in its bays and holes.
+    keep_scale : bool
+        Nothing is scaled to fit the square: areas are those on the surface, and charts may lie beyond it.
+    tile : int
+        The UDIM tile that is the square: 1001 is the unit square, 1002 the one to its right, 1011 the one above.
     callback : callable, optional
         Called as ``callback(stage, fraction)``, the fraction over all charts; the work stops with CancelledError
         when it returns False.
@@ -124,8 +143,6 @@ def unwrap(
     OptionError
         An option that is not taken, a seam that is no edge, a vertex of no selected polygon, or one that no chart
         can use as a center, boundary vertex or pin.
-    MissingDependencyError
-        Several charts are to be packed and rectangle-packer is not installed.
     CancelledError
         The callback returned False.
 
@@ -172,5 +189,11 @@ def unwrap(
         repair=repair,
         place=place,
         margin=margin,
+        margin_method=margin_method,
+        image_size=image_size,
+        pack_rotation=pack_rotation,
+        pack_shape=pack_shape,
+        keep_scale=keep_scale,
+        tile=tile,
         callback=callback,
     )

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..linear.backends import choose_backend
+from ..mesh.arrays import squared_units
 from ..mesh.mesh_objects import MeshObject, polygons_of
-from ..options import ChartOptions, DiskOptions, Laplacian, Place, PlaceOptions, Shape, ShapeOptions, SplitOptions
+from ..options import ChartOptions, DiskOptions, Laplacian, PlaceOptions, Shape, ShapeOptions, SplitOptions
 from ..progress import Callback
 from .arguments import Polygons, polygon_mesh, seam_pairs, selected_polygons, used_vertices, vertex_list
 from .chart_atlas import ChartAtlas
@@ -22,16 +23,16 @@ from .chart_progress import PLACING, SPLITTING, ChartProgress
 from .chart_solutions import ChartSolutions
 from .disks import made_disks
 from .named_vertices import NamedVertices
-from .outlines import unit_disk
-from .packing import Placements, placements
+from .outlines import Outlines, joint_outlines, unit_disk
+from .packing import ChartShape, Placements, placements
 from .splitting import split_into_charts
 from .unwrapped import Unwrapped
 
 __all__ = ["Unwrapper"]
 
 Vertices = int | Iterable[Any] | None
-Outline = tuple[NDArray[np.complex128], NDArray[np.int64]]
-SHAPES = fields(ShapeOptions)
+SHAPES = [field.name for field in fields(ShapeOptions)]
+PLACES = [field.name for field in fields(PlaceOptions) if field.name != "rotation"]
 
 
 class Unwrapper:
@@ -85,18 +86,17 @@ class Unwrapper:
         pins: Vertices = None,
         center: Vertices = None,
         boundary_vertex: Vertices = None,
-        place: str = "fit",
-        margin: float | None = None,
         rotation: float = 0.0,
         callback: Callback | None = None,
         **options: Any,
     ) -> Unwrapped:
-        """Map all charts with the given options, those of `disk_map` and of `ShapeOptions` among them; see `unwrap`.
+        """Map all charts with the given options, those of `disk_map`, `ShapeOptions` and `PlaceOptions` among them; see
+        `unwrap`.
 
         Factorizations are used again.
         """
-        where = PlaceOptions(place=Place.of("place", place), margin=margin, rotation=rotation)
-        shapes = ShapeOptions(**{field.name: options.pop(field.name) for field in SHAPES if field.name in options})
+        where = PlaceOptions(rotation=rotation, **{name: options.pop(name) for name in PLACES if name in options})
+        shapes = ShapeOptions(**{name: options.pop(name) for name in SHAPES if name in options})
         how = ChartOptions(shape=shapes, disk=DiskOptions(**options), rotation=where.rotation)
         vertices = NamedVertices(
             vertex_list("center", center, self._used),
@@ -165,15 +165,14 @@ class Unwrapper:
         """Place the disks and gather the corners' coordinates."""
         surface, split, meshes = self._split.surface, self._split, self._meshes
         mapped = solutions.mapped
-        found = placements(
-            where.place, where.margin, meshes.area[mapped], solutions.image_areas()[mapped], self._outlines(solutions)
-        )
+        area = squared_units(meshes.area, meshes.unit) if where.keep_scale else meshes.area
+        found = placements(where, area[mapped], solutions.image_areas()[mapped], self._outlines(solutions))
         placed = Placements.untouched(split.count)
-        placed.center[mapped], placed.scale[mapped] = found
+        placed.put(mapped, found)
         own = np.flatnonzero(meshes.site[: meshes.first_vertex[-1]] < len(surface.vertex_of_site))
         chart = meshes.chart_of_vertex[own]
         z: NDArray[np.complex128] = np.zeros(len(surface.vertex_of_site), dtype=np.complex128)
-        z[meshes.site[own]] = placed.center[chart] + placed.scale[chart] * solutions.z[own]
+        z[meshes.site[own]] = placed.placed(solutions.z[own], chart)
         uv = np.zeros((self._corner_count, 2))
         uv[split.corner] = z[surface.site[: len(split.corner)]].view(np.float64).reshape(-1, 2)
         chart_of_face = np.full(self._face_count, -1, dtype=np.int64)
@@ -181,14 +180,19 @@ class Unwrapper:
         done = np.append(mapped, False)[chart_of_face]
         return Unwrapped(uv, chart_of_face, done, ChartList(split, meshes, solutions, placed))
 
-    def _outlines(self, solutions: ChartSolutions) -> list[Outline] | None:
-        """Positions and triangles that cover each mapped chart, of disks the whole disk; None where all are disks."""
-        if solutions.is_disk[solutions.mapped].all():
+    def _outlines(self, solutions: ChartSolutions) -> Outlines | list[ChartShape] | None:
+        """What covers each mapped chart, of disks the whole disk; None where all are disks."""
+        meshes, mapped = self._meshes, solutions.mapped
+        disks = solutions.is_disk[mapped]
+        if disks.all():
             return None
-        meshes, disk = self._meshes, unit_disk()
+        if not disks.any():
+            number = np.where(mapped, np.cumsum(mapped) - 1, -1)[meshes.chart_of_face]
+            return joint_outlines(solutions.z, meshes.F_of_all[number >= 0].T, number[number >= 0])
+        disk = unit_disk()
         return [
             disk
             if solutions.is_disk[number]
             else (solutions.z[meshes.first_vertex[number] : meshes.first_virtual[number]], meshes[number].F.T)
-            for number in np.flatnonzero(solutions.mapped).tolist()
+            for number in np.flatnonzero(mapped).tolist()
         ]

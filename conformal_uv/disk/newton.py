@@ -17,7 +17,7 @@ from ..progress import Progress
 from .angle_steps import gaps, in_order
 from .boundary_energy import BoundaryEnergy
 from .gauge import Gauge
-from .preconditioner import preconditioner
+from .preconditioner import Preconditioner, preconditioner
 from .tangent import Tangent
 
 __all__ = ["NewtonResult", "minimise_boundary_energy"]
@@ -36,12 +36,14 @@ SHORT_PART = 0.01  # of it where the boundary is short: one step more costs next
 
 
 class NewtonResult(NamedTuple):
-    """The energy at the angles found, the steps, and whether the tolerance was reached."""
+    """The energy at the angles found, the steps, whether the tolerance was reached, and whether neighbours came so
+    close together that they were linked."""
 
     energy: BoundaryEnergy
     history: tuple[NewtonStep, ...]
     converged: bool
     status: Status
+    linked: bool = False
 
 
 def minimise_boundary_energy(
@@ -55,6 +57,7 @@ def minimise_boundary_energy(
     progress: Progress,
     relative_tolerance: float = 0.0,
     watch: Callable[[BoundaryEnergy], bool] = lambda energy: True,
+    preconditioned: Callable[[DirichletProblem, Real], Preconditioner] = preconditioner,
 ) -> NewtonResult:
     """Minimise the energy over the boundary angles under the gauge.
 
@@ -71,6 +74,8 @@ def minimise_boundary_energy(
         Start, strictly increasing within one turn, but for neighbours too close for doubles.
     watch : callable
         Given the energy after each step; the iteration ends before the first where it is False.
+    preconditioned : callable
+        Gives the preconditioner for the angles at hand.
     """
     history: list[NewtonStep] = []
     energy = BoundaryEnergy(problem, gauge.restore(theta), minus_area=minus_area)
@@ -81,8 +86,8 @@ def minimise_boundary_energy(
     asked, part = tolerance, SHORT_PART if len(theta) <= SHORT else 1.0
     tolerance = max(part * asked, rounding)
     first, status = None, Status.CONVERGED
-    inverse = preconditioner(problem)
     while True:  # every round makes a step or a link, and links are no more than vertices
+        inverse = preconditioned(problem, energy.theta)
         tangent = Tangent(gauge, energy.theta, links, inverse)
         norm = float(np.linalg.norm(tangent.project(energy.gradient)))
         if norm <= tolerance:
@@ -119,7 +124,7 @@ def minimise_boundary_energy(
         history.append(NewtonStep(energy.value, norm, cg_steps, step_length))
         energy = better
     history.append(NewtonStep(energy.value, norm, 0, 0.0))
-    return NewtonResult(energy, tuple(history), status is Status.CONVERGED, status)
+    return NewtonResult(energy, tuple(history), status is Status.CONVERGED, status, bool(links.any()))
 
 
 def _newton_direction(

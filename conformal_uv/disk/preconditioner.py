@@ -17,15 +17,44 @@ from scipy.fft import irfft, rfft
 from ..operators.dirichlet import DirichletProblem
 from ..operators.neumann_strip import SHORT
 
-__all__ = ["FourierPreconditioner", "preconditioner"]
+__all__ = ["FourierPreconditioner", "Preconditioner", "StripPreconditioner", "preconditioner", "smooth_preconditioner"]
 
 Real = NDArray[np.float64]
 
+Preconditioner = Callable[[Real], Real]
 
-def preconditioner(problem: DirichletProblem) -> Callable[[Real], Real]:
-    """The one for this boundary."""
+LONG_WAVES = 16  # where k - 1 is no more nearly k
+
+
+def preconditioner(problem: DirichletProblem, theta: Real) -> Preconditioner:
+    """The one for this boundary at these angles (nb,)."""
     nb = len(problem.boundary)
-    return FourierPreconditioner(nb) if nb <= SHORT else problem.boundary_inverse
+    return FourierPreconditioner(nb) if nb <= SHORT else StripPreconditioner(problem, theta)
+
+
+def smooth_preconditioner(problem: DirichletProblem, theta: Real) -> Preconditioner:
+    """One that knows the boundary's length only, on any boundary: directions come out smooth along it."""
+    return FourierPreconditioner(len(theta))
+
+
+class StripPreconditioner:
+    """The inverse of |k|, from the strip of the mesh along the boundary, turned into that of |k| - 1 for long waves.
+
+    Parameters
+    ----------
+    problem : DirichletProblem
+    theta : (nb,) float64
+    """
+
+    def __init__(self, problem: DirichletProblem, theta: Real) -> None:
+        self._inverse = problem.boundary_inverse
+        k = np.arange(2, LONG_WAVES + 1)
+        self._waves = np.concatenate((np.cos(theta[:, None] * k), np.sin(theta[:, None] * k)), axis=1)
+        self._more = np.tile(1.0 / (np.pi * (k - 1)) - 1.0 / (np.pi * k), 2)  # cos(k t) has the energy pi k / 2
+
+    def __call__(self, residual: Real) -> Real:
+        """Apply to a residual (nb,)."""
+        return self._inverse(residual) + self._waves @ (self._more * (residual @ self._waves))
 
 
 class FourierPreconditioner:

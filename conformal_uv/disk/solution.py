@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from ..mesh.surface import Surface
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import uniform_edges
 from ..operators.laplacian import cotangent_weights, laplacian_matrix
+from ..operators.neumann_strip import SHORT
 from ..optimize import AugmentedLagrangianStep, NewtonStep, Status, augmented_lagrangian
 from ..options import DiskOptions, Method
 from ..progress import Progress
@@ -23,6 +25,7 @@ from .gauge import CentreGauge, PinGauge
 from .harmonic_measure import CentredMeasure
 from .newton import NewtonResult, minimise_boundary_energy
 from .placement import CUBE_ROOTS, place_pins
+from .preconditioner import smooth_preconditioner
 from .relative_energy import least_shear
 
 __all__ = ["LinearStart", "Solution", "solve_augmented_lagrangian", "solve_linear", "solve_newton", "solve_relative"]
@@ -78,7 +81,8 @@ def solve_newton(
         placed, _ = place_pins(problem, surface.corners, start, pins)
         theta = _angles(placed[loop])
         gauge = PinGauge(np.array([np.flatnonzero(loop == pin)[0] for pin in pins]))
-    found: NewtonResult = minimise_boundary_energy(
+    minimised = partial(
+        minimise_boundary_energy,
         problem,
         theta,
         gauge,
@@ -89,6 +93,11 @@ def solve_newton(
         progress=progress,
         watch=watch,
     )
+    found: NewtonResult = minimised()
+    if found.linked and found.status in {Status.STALLED, Status.MAX_ITERATIONS} and len(theta) > SHORT:
+        # A crowded boundary: on a surface stretched 1e5 times smooth directions lead past where others end.
+        again = minimised(preconditioned=smooth_preconditioner)
+        found = again if again.converged or again.energy.value < found.energy.value else found
     if pins is None and options.objective == "conformal" and found.converged:
         found = release_centre(surface, problem, measure, found, options, progress)
     z = found.energy.positions()

@@ -6,16 +6,21 @@ from .distortion import Distortion, distortion
 from .gradient import gradient
 from .laplacian import cotangent_laplacian, cotangent_laplacian_intrinsic, uniform_laplacian
 from .moebius import Moebius
+from .polygon_distortion import PolygonDistortion, polygon_distortion
+from .sphere_moebius import SphereMoebius
 
 __all__ = [
     "DirichletProblem",
     "Distortion",
     "Moebius",
+    "SphereMoebius",
+    "PolygonDistortion",
     "cotangent_laplacian",
     "cotangent_laplacian_intrinsic",
     "distortion",
     "face_areas",
     "gradient",
     "mixed_voronoi_areas",
+    "polygon_distortion",
     "uniform_laplacian",
 ]

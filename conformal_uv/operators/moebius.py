@@ -78,6 +78,38 @@ class Moebius:
         return cls(turn, -turn * p, -np.conj(p), 1.0)
 
     @classmethod
+    def of_disk(cls, center: complex = 0.0, rotation: float = 0.0) -> Moebius:
+        """The map of the unit disk onto itself that turns about 0 by an angle (radians), then sends 0 to `center`.
+
+        Every orientation-preserving conformal map of the disk onto itself is one of these; see `center_and_rotation`.
+
+        Raises
+        ------
+        OptionError
+            The center is not inside the disk.
+        """
+        turn = complex(np.exp(1j * rotation))
+        return cls.to_zero(center).inverse() @ cls(turn, 0.0, 0.0, 1.0)
+
+    @classmethod
+    def disk_translation(cls, p: complex, q: complex) -> Moebius:
+        """The hyperbolic translation of the unit disk that moves p to q along the geodesic through both.
+
+        Raises
+        ------
+        OptionError
+            A point is not inside the disk.
+        """
+        there = cls.to_zero(p)
+        cls.to_zero(q)
+        return there.inverse() @ cls.of_disk(complex(there(q))) @ there
+
+    def center_and_rotation(self) -> tuple[complex, float]:
+        """Of a map of the disk onto itself: the image of 0, and the angle (radians) by which directions at 0 turn."""
+        slope = (self.a * self.d - self.b * self.c) / self.d**2
+        return complex(self.b / self.d), float(np.angle(slope))
+
+    @classmethod
     def from_three_pairs(cls, z: ArrayLike, w: ArrayLike) -> Moebius:
         """The map with ``z[k] -> w[k]`` for k = 0, 1, 2; of the disk when all lie on the circle in one order.
 

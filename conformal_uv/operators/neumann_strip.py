@@ -26,7 +26,7 @@ Ints = NDArray[np.int64]
 Real = NDArray[np.float64]
 
 SHORT = 96  # boundary vertices, up to which a Fourier multiplier does as well
-RINGS = 3  # of vertices that are kept; with one more ring the steps stay as many
+RINGS = 5  # of vertices that are kept; with more the steps stay as many
 GROUP = 2  # vertices of the innermost ring to a cell
 FEWEST = 4  # cells of a ring
 # Conductances between the centres of square cells: to the next on the ring, and over 1 + 1/2 half widths to a cell

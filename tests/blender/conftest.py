@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from installed_names import InstalledNames
 
 INSIDE = "CONFORMAL_UV_INSIDE_BLENDER"
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -23,7 +22,7 @@ else:
     importlib.import_module("bpy")
     if importlib.import_module("addon_utils").enable(MODULE) is None:
         raise RuntimeError(f"{MODULE} can not be enabled")
-    InstalledNames(MODULE).install()
+    importlib.import_module("installed_names").InstalledNames(MODULE).install()
 
 
 @pytest.fixture(scope="session")

@@ -37,11 +37,10 @@ def use(folder):
     for vertex in ob.data.vertices:
         vertex.co.z = 0.2 * np.sin(4.0 * vertex.co.x + 1.0) * np.cos(3.0 * vertex.co.y)
     finished = bpy.ops.uv.conformal_unwrap() == {"FINISHED"}
-    import rpack
     import scipy
 
     cuv = import_module(f"{MODULE}.conformal_uv")
-    brought = all(module.__file__.startswith(folder) for module in (cuv, scipy, rpack))
+    brought = all(module.__file__.startswith(folder) for module in (cuv, scipy))
     alone = not any(name.partition(".")[0] == "conformal_uv" for name in sys.modules)
     V = np.array([tuple(vertex.co) for vertex in ob.data.vertices], dtype=np.float64)
     result = cuv.unwrap(V, [list(polygon.vertices) for polygon in ob.data.polygons], place="disk")

@@ -149,3 +149,39 @@ def test_numbers_that_can_not_be_written_keep_nothing_else_from_its_file(addon, 
     out = tmp_path / "out.blend"
     assert run(addon, blend, "-o", out, "--object", "Grid", "--json", tmp_path / "report.json") == 1
     assert out.exists() and "no space left" in capfd.readouterr().err
+
+
+def test_collections(addon, tmp_path, capfd):
+    """Objects in a collection, or in one inside it, and no others; options of packing reach the packer."""
+    parts, inner = bpy.data.collections.new("Parts"), bpy.data.collections.new("Inner")
+    bpy.context.scene.collection.children.link(parts)
+    parts.children.link(inner)
+    one, other, outside = (scenes.grid(name=name) for name in ("One", "Other", "Outside"))
+    parts.objects.link(one)
+    inner.objects.link(other)
+    before = scenes.shadowed(scenes.uvs(outside))
+    path, out, report = (tmp_path / name for name in ("in.blend", "out.blend", "report.json"))
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    packing = (
+        "--place",
+        "pack",
+        "--pack-rotation",
+        "any",
+        "--margin-method",
+        "pixels",
+        "--margin",
+        "4",
+        "--tile",
+        "1002",
+    )
+    assert run(addon, path, "-o", out, "--collection", "Parts", "--shape", "free", "--json", report, *packing) == 0
+    bpy.ops.wm.open_mainfile(filepath=str(out))
+    assert {ob["name"] for ob in json.loads(report.read_text())["objects"]} == {"One", "Other"}
+    assert scenes.shadowed(scenes.uvs(bpy.data.objects["Outside"])) == before
+    both = np.concatenate([scenes.uvs(bpy.data.objects[name]) for name in ("One", "Other")])
+    assert both.min(axis=0) == pytest.approx([1.0 + 4 / 1024, 4 / 1024], abs=0.003)
+    assert both[:, 0].max() <= 2.0 - 4 / 1024 + 1e-6
+    assert run(addon, path, "-o", out, "--collection", "Nowhere") == 1
+    assert "no collection named Nowhere" in capfd.readouterr().err
+    assert run(addon, path, "-o", out, "--collection", "Parts", "--tile", "7") == 2
+    assert "tile is 7" in capfd.readouterr().err

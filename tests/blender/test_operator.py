@@ -127,8 +127,8 @@ class Window:
     """What the worker uses of a window; background Blender has none."""
 
     def __init__(self):
-        self.window_manager, self.workspace, self.window = self, self, None
-        self.texts, self.timers = [], 0
+        self.window_manager, self.workspace, self.area, self.window = self, self, self, None
+        self.texts, self.headers, self.timers = [], [], 0
 
     def __getattr__(self, name):
         return getattr(bpy.context, name)
@@ -152,15 +152,28 @@ class Window:
     def status_text_set(self, text):
         self.texts.append(text)
 
+    def header_text_set(self, text):
+        self.headers.append(text)
+
 
 def started(addon, window):
+    """A thread at the unwrap of the active object, and what takes its work over."""
     from importlib import import_module
 
-    worker = import_module(f"{addon.__name__}.worker")
-    properties = import_module(f"{addon.__name__}.properties")
-    work = worker.Worker(window, [bpy.context.object], properties.Options())
+    kept_work, properties, tasks, unwrap_objects, worker = (
+        import_module(f"{addon.__name__}.{name}")
+        for name in ("kept_work", "properties", "tasks", "unwrap_objects", "worker")
+    )
+    options, fork = properties.Options(), kept_work.KEPT.fork()
+    read = tasks.gather(window, [bpy.context.object], options)
+    work = worker.Worker(
+        "Conformal Unwrap",
+        lambda callback: unwrap_objects.solve(read, options, fork, callback=callback, backend=worker.BACKEND),
+    )
+    assert not worker.under_way()
     work.start(window)
-    return work
+    assert worker.under_way()
+    return work, lambda: kept_work.KEPT.adopt(fork)
 
 
 def waited(work):
@@ -174,11 +187,13 @@ def waited(work):
 def test_thread_leaves_its_work_for_execute(addon, factorizations):
     ob, window = scenes.grid(60, 50), Window()
     before = scenes.shadowed(scenes.uvs(ob))
-    work = started(addon, window)
+    work, take_over = started(addon, window)
     waited(work)
     assert scenes.shadowed(scenes.uvs(ob)) == before
     work.finish(window)
+    take_over()
     assert window.timers == 0 and window.texts[-1] is None and "Esc" in window.texts[0]
+    assert window.headers == window.texts
     assert len(factorizations) == 1
     bpy.ops.uv.conformal_unwrap()
     assert len(factorizations) == 1
@@ -198,7 +213,7 @@ def test_cancel_stops_the_thread_and_changes_nothing(addon, monkeypatch, factori
     before = scenes.shadowed(scenes.uvs(ob))
     with monkeypatch.context() as patched:
         patched.setattr(dirichlet, "linear_solver", waiting)
-        work = started(addon, window)
+        work, _ = started(addon, window)
         work.cancel(window)
         cancelled.set()
         waited(work)

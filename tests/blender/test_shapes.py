@@ -107,12 +107,16 @@ def test_menus_name_the_shapes(addon):
     [("DISK", {"method", "center", "use_pins"}), ("FREE", {"refine"}), ("RECTANGLE", {"corner_choice", "use_pins"})],
 )
 def test_the_redo_panel_shows_what_means_something(addon, shape, own):
-    shown = Shown(shape=shape)
+    shown = Shown(shape=shape, margin_method="FRACTION")
     addon.operators.UV_OT_conformal_unwrap.draw(shown, bpy.context)
     special = {"method", "center", "use_pins", "refine", "corner_choice"}
     assert shown.layout.told[0] == "shape"
     assert set(shown.layout.told) & special == own
     assert {"upright", "rotation", "place", "margin", "faces", "closed", "uv_layer"} <= set(shown.layout.told)
+    assert "image_size" not in shown.layout.told
+    shown = Shown(shape=shape, margin_method="PIXELS")
+    addon.operators.UV_OT_conformal_unwrap.draw(shown, bpy.context)
+    assert "image_size" in shown.layout.told
 
 
 @pytest.mark.parametrize("mode", [scenes.leave, scenes.edit])

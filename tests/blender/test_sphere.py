@@ -73,5 +73,5 @@ def test_errors_name_polygons():
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     quads = [[v + 1 for v in quad] for quad in quads]
     scenes.mesh_object(V, [*quads[:-1], quads[-1][::-1]])
-    with pytest.raises(RuntimeError, match="1 faces are wound against their neighbours: faces 5[.]"):
+    with pytest.raises(RuntimeError, match="1 face is wound against their neighbours: face 5[.]"):
         bpy.ops.object.conformal_sphere()

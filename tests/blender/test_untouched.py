@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import bpy
 import numpy as np
 import pytest
@@ -143,13 +141,12 @@ def test_bad_meshes_are_told_not_thrown():
 
 
 def test_every_bad_mesh_is_named(addon):
-    pytest.importorskip("rpack")
     test_bad_meshes_are_told_not_thrown()
     result = addon.last_result.last()
     assert result.message.startswith("Unwrapped 5 of 6 islands of 5 objects; ")
     for part in ("Nowhere, faces", "NaN", "Wire: the mesh has no faces"):
         assert part in result.message
-    assert result.remarks == ["Fin: cut along 1 edges of three or more faces"]  # as Blender's own unwrap does
+    assert result.remarks == ["Fin: cut along 1 edge of three or more faces"]  # as Blender's own unwrap does
     assert "pass " not in result.message and '="' not in result.message
 
 
@@ -164,20 +161,6 @@ def test_packing_meshes_of_extreme_sizes(size):
     for ob in (one, other):
         uv = scenes.uvs(ob)
         assert uv.min() >= -1e-6 and uv.max() <= 1.0 + 1e-6 and np.ptp(uv, axis=0).min() > 0.3
-
-
-def test_without_rectangle_packer(addon, monkeypatch):
-    monkeypatch.setitem(sys.modules, "rpack", None)
-    ob = scenes.primitive("cube")
-    for edge in ob.data.edges:
-        edge.use_seam = True
-    before = scenes.shadowed(scenes.uvs(ob))
-    assert bpy.ops.uv.conformal_unwrap() == {"FINISHED"}
-    assert scenes.shadowed(scenes.uvs(ob)) != before
-    assert addon.last_result.last().remarks == ["rectangle-packer is not installed; Blender packed the islands"]
-    assert_apart(ob)
-    assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}
-    assert addon.last_result.last().remarks == []
 
 
 def assert_apart(*objects):
@@ -197,43 +180,6 @@ def separate_faces(location=(0.0, 0.0, 0.0)):
     for edge in ob.data.edges:
         edge.use_seam = True
     return ob
-
-
-@pytest.mark.parametrize("works", ["AABB", ""])
-def test_packing_where_blenders_packer_does_nothing(addon, monkeypatch, works):
-    """On 4.3 pack_islands with CONVEX does nothing once Esc was pressed anywhere."""
-    pytest.importorskip("rpack")
-    module = sys.modules[f"{addon.__name__}.packing"]
-
-    class Packer:
-        def __getattr__(self, name):
-            return getattr(bpy.ops.uv, name)
-
-        def pack_islands(self, **options):
-            return bpy.ops.uv.pack_islands(**options) if options["shape_method"] == works else {"FINISHED"}
-
-    class Operators:
-        uv = Packer()
-
-        def __getattr__(self, name):
-            return getattr(bpy.ops, name)
-
-    class Blender:
-        ops = Operators()
-
-        def __getattr__(self, name):
-            return getattr(bpy, name)
-
-    ob = separate_faces()
-    monkeypatch.setattr(module, "bpy", Blender())
-    assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}
-    assert_apart(ob)
-    told = "Blender's packer left the islands as they were; conformal_uv packed them"
-    assert addon.last_result.last().remarks == ([] if works else [told])
-    if not works:
-        monkeypatch.setitem(sys.modules, "rpack", None)
-        assert bpy.ops.uv.conformal_unwrap(place="PACK") == {"FINISHED"}
-        assert_apart(ob)
 
 
 def test_objects_in_edit_mode_are_packed_together():
