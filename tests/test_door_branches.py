@@ -16,10 +16,9 @@ from conformal_uv import PolygonMesh
 from conformal_uv.cli.app import app
 from conformal_uv.cli.figure import _joined
 from conformal_uv.cli.outputs import Outputs
-from conformal_uv.cli.seams import read_seams
 from conformal_uv.console import stages
 from conformal_uv.console.summary import distortion_summary
-from conformal_uv.files import MeshFile
+from conformal_uv.files import MeshFile, read_seams
 
 
 @pytest.mark.parametrize("turned", [False, True])
