@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ._version import __version__
 
 if TYPE_CHECKING:
+    from .batches import BatchRow, batch
     from .charts import (
         Chart,
         Placement,
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AugmentedLagrangianStep",
+    "BatchRow",
     "Callback",
     "CancelledError",
     "Chart",
@@ -98,6 +100,7 @@ __all__ = [
     "Unwrapped",
     "Unwrapper",
     "__version__",
+    "batch",
     "cotangent_laplacian",
     "cotangent_laplacian_intrinsic",
     "disk_map",
@@ -121,6 +124,7 @@ __all__ = [
 
 _HOME = {
     "AugmentedLagrangianStep": "optimize",
+    "BatchRow": "batches",
     "Callback": "progress",
     "CancelledError": "errors",
     "Chart": "charts",
@@ -156,6 +160,7 @@ _HOME = {
     "UnwrapNumbers": "report",
     "Unwrapped": "charts",
     "Unwrapper": "charts",
+    "batch": "batches",
     "cotangent_laplacian": "operators",
     "cotangent_laplacian_intrinsic": "operators",
     "disk_map": "disk",

@@ -1,1 +1,7 @@
 """Thousands of mesh files mapped side by side, in processes of this machine or on a cluster."""
+
+from .batch import batch, batch_tasks, run_batch
+from .plan import Plan
+from .row import BatchRow, Outcome
+
+__all__ = ["BatchRow", "Outcome", "Plan", "batch", "batch_tasks", "run_batch"]
