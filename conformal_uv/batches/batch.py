@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import logging
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +31,7 @@ def batch(
     scheduler: Any = None,
     workers: int | None = None,
     **options: Any,
-) -> Iterator[BatchRow]:
+) -> Generator[BatchRow, None, None]:
     """Map many mesh files side by side, by Dask.
 
     Maps are written into the folder `out` by the workers, each in one step; ``rows.jsonl`` there gets a line for each
@@ -100,9 +100,7 @@ def batch(
     return run_batch(batch_tasks(inputs, Path(out), plan), Path(out), scheduler=scheduler, workers=workers)
 
 
-def batch_tasks(
-    inputs: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], out: Path, plan: Plan
-) -> list[Task]:
+def batch_tasks(inputs: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], out: Path, plan: Plan) -> list[Task]:
     """The tasks of a batch, with what earlier runs told of them; errors as of `batch`."""
     return found_tasks(inputs, out, plan, read_rows(out))
 
@@ -114,7 +112,7 @@ def run_batch(
     scheduler: Any = None,
     workers: int | None = None,
     told: Callable[[str], object] = log.info,
-) -> Iterator[BatchRow]:
+) -> Generator[BatchRow, None, None]:
     """The rows of tasks as they are done; `told` is told where Dask's dashboard is. Errors as of `batch`."""
     _check(scheduler, workers)
     rows = _rows_here(tasks) if scheduler is None and workers == 0 else _rows_on_dask(tasks, scheduler, workers, told)
@@ -129,12 +127,12 @@ def _check(scheduler: Any, workers: int | None) -> None:
     missing = [name for name in ("dask", "distributed") if importlib.util.find_spec(name) is None]
     if missing and workers != 0:
         raise MissingDependencyError(
-            f'{" and ".join(missing)} not installed: pip install "conformal-uv[cluster]", or set workers to 0 to map in '
-            "this process alone."
+            f'{" and ".join(missing)} not installed: pip install "conformal-uv[cluster]", or set workers to 0, to map '
+            "in this process alone."
         )
 
 
-def _rows_here(tasks: Sequence[Task]) -> Iterator[BatchRow]:
+def _rows_here(tasks: Sequence[Task]) -> Generator[BatchRow, None, None]:
     """One after the other, in this process."""
     for task in sorted(tasks, key=lambda task: -task.memory):
         yield worked(task)
@@ -142,7 +140,7 @@ def _rows_here(tasks: Sequence[Task]) -> Iterator[BatchRow]:
 
 def _rows_on_dask(
     tasks: Sequence[Task], scheduler: Any, workers: int | None, told: Callable[[str], object]
-) -> Iterator[BatchRow]:
+) -> Generator[BatchRow, None, None]:
     from .cluster import connected
     from .flight import rows_in_flight
 
@@ -151,7 +149,9 @@ def _rows_on_dask(
         yield from rows_in_flight(fleet, tasks)
 
 
-def _kept_rows(tasks: Sequence[Task], out: Path, rows: Iterator[BatchRow]) -> Iterator[BatchRow]:
+def _kept_rows(
+    tasks: Sequence[Task], out: Path, rows: Generator[BatchRow, None, None]
+) -> Generator[BatchRow, None, None]:
     """The rows, written down before they are passed on; tables in the end, and after an interruption too."""
     found: dict[str, BatchRow] = {task.target: task.before for task in tasks if task.before is not None}
     lines = RowLog(out)
@@ -165,7 +165,7 @@ def _kept_rows(tasks: Sequence[Task], out: Path, rows: Iterator[BatchRow]) -> It
             left -= 1
             yield row
     finally:
-        rows.close()  # type: ignore[attr-defined]
+        rows.close()
         lines.close()
         if left == 0:
             clear_leftovers(task.target for task in tasks)

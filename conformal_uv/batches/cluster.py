@@ -101,9 +101,9 @@ def connected(scheduler: Any, workers: int | None) -> Iterator[Fleet]:
     try:
         client = Client(scheduler)
     except (OSError, ValueError) as error:
-        raise OptionError(f"No scheduler of Dask's answers at {scheduler} ({error}); start one, or leave it out.") from (
-            error
-        )
+        raise OptionError(
+            f"No scheduler of Dask's answers at {scheduler} ({error}); start one, or leave it out."
+        ) from (error)
     with client:
         yield Fleet(client)
 

@@ -120,7 +120,9 @@ class _Flight:
     def _died(self, flown: _Flown, error: KilledWorker) -> tuple[_Flown, BatchRow | None]:
         deaths = flown.deaths + error.allowed_failures + 1
         if flown.alone and deaths >= DEATHS:
-            told = f"{deaths} workers died while they had this mesh, the last with nothing else in work; it is set aside"
+            told = (
+                f"{deaths} workers died while they had this mesh, the last with nothing else in work; it is set aside"
+            )
             return flown, _row(flown.task, Outcome.KILLED, "KilledWorker", told)
         return _Flown(flown.task, True, deaths), None
 

@@ -23,7 +23,10 @@ FIRST = ".obj"  # of what is read but not written
 
 
 def found_tasks(
-    inputs: Iterable[str | os.PathLike[str]], out: Path, plan: Plan, before: Mapping[str, BatchRow]
+    inputs: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
+    out: Path,
+    plan: Plan,
+    before: Mapping[str, BatchRow],
 ) -> list[Task]:
     """A task for each input, in the order in which they are given.
 
@@ -43,10 +46,10 @@ def found_tasks(
     FileFormatError
         A manifest can not be read.
     """
-    given = [inputs] if isinstance(inputs, str | os.PathLike) else list(inputs)
+    given = [os.fspath(one) for one in ([inputs] if isinstance(inputs, str | os.PathLike) else inputs)]
     found: list[Entry] = []
     plain: list[Entry] = []
-    for one in map(os.fspath, given):
+    for one in given:
         if Path(one).suffix.lower() in MANIFESTS:
             found += _placed(read_manifest(Path(one)))
         elif os.path.isdir(one):
@@ -57,7 +60,7 @@ def found_tasks(
             plain.append(Entry(os.path.abspath(one)))
     found += _placed(plain)
     if not found:
-        raise OptionError(f"No meshes in {', '.join(map(str, given)) or 'no inputs'}; give files, folders or patterns.")
+        raise OptionError(f"No meshes in {', '.join(given) or 'no inputs'}; give files, folders or patterns.")
     return _distinct([_task(entry, out, plan, before) for entry in found])
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+from collections.abc import Iterable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,15 +16,17 @@ from ..console.summary import shape_name
 from ..errors import MissingDependencyError, OptionError
 from ..files import replaced_file
 from ..free import FreeMap
-from ..operators import Distortion
+from ..operators import Distortion, distortion
 from ..options import Upright
 from ..rectangle import RectangleMap
 from ..sphere import SphereMap
+from .texture import Texture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-__all__ = ["check_drawable", "draw_sphere_map", "draw_unwrapped"]
+__all__ = ["check_drawable", "draw_sphere_map", "draw_unwrapped", "sphere_picture", "texture_picture"]
 
 SUFFIXES = (".png", ".pdf", ".svg")
 
@@ -42,13 +46,53 @@ def check_drawable(path: Path) -> None:
 
 def draw_unwrapped(path: Path, result: Unwrapped, title: str, upright: Upright = Upright.NONE) -> None:
     """Draw an unwrapped mesh into a PNG, PDF or SVG file, the surface `upright` as its charts are."""
+    charts = [chart for chart in result.charts if chart.map is not None]
+    corners = np.concatenate([chart.mesh.V[chart.F] for chart in charts])
+    image = np.concatenate([result.uv[chart.corner] for chart in charts])
+    figure = _unwrapped_figure(corners, image, _joined(charts), title, _caption(charts), upright)
+    with replaced_file(path) as out:
+        figure.savefig(out, format=path.suffix[1:].lower())
+
+
+def draw_sphere_map(path: Path, result: SphereMap, title: str) -> None:
+    """Draw a closed surface and its sphere from two sides in the same colours, and the angle error on the sphere."""
+    surface = result.surface
+    caption = f"{result.method} map, conformal energy {result.conformal_energy:.3g}"
+    figure = _sphere_figure(surface.V, surface.F, result.xyz, result.distortion, title, caption)
+    with replaced_file(path) as out:
+        figure.savefig(out, format=path.suffix[1:].lower())
+
+
+def texture_picture(texture: Texture, title: str, caption: str, upright: Upright, dpi: float) -> bytes:
+    """A PNG of a file's mesh with its texture coordinates, as `draw_unwrapped` draws it."""
+    return _png(_unwrapped_figure(texture.corners, texture.image, texture.distortion, title, caption, upright), dpi)
+
+
+def sphere_picture(
+    V: NDArray[np.float64], F: NDArray[np.int64], xyz: NDArray[np.float64], title: str, caption: str, dpi: float
+) -> bytes:
+    """A PNG of a closed surface and its image on the sphere, as `draw_sphere_map` draws it."""
+    return _png(_sphere_figure(V, F, xyz, distortion(V, F, xyz), title, caption), dpi)
+
+
+def _png(figure: Figure, dpi: float) -> bytes:
+    out = io.BytesIO()
+    figure.savefig(out, format="png", dpi=dpi)
+    return out.getvalue()
+
+
+def _unwrapped_figure(
+    corners: NDArray[np.float64],
+    image: NDArray[np.float64],
+    measured: Distortion,
+    title: str,
+    caption: str,
+    upright: Upright,
+) -> Figure:
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(15, 5.4), dpi=130, layout="constrained")
     left, middle, right = figure.subplots(1, 3)
-    charts = [chart for chart in result.charts if chart.map is not None]
-    corners = np.concatenate([chart.mesh.V[chart.F] for chart in charts])
-    image = np.concatenate([result.uv[chart.corner] for chart in charts])
     count = len(corners)
     flat, depth, shade = _view(corners, upright)
     far_first = np.argsort(depth)
@@ -56,40 +100,44 @@ def draw_unwrapped(path: Path, result: Unwrapped, title: str, upright: Upright =
     left.set_title(f"{title}: {count} triangles")
     edges = {"edgecolors": "0.25", "linewidths": 0.3 if count > 2000 else 0.6} if count <= DETAILED else {}
     _add_faces(middle, image, shade, **edges)
-    middle.set_title(_caption(charts))
-    _draw_faces_by_error(figure, right, _joined(charts), image, np.arange(float(count)))
-    for axes in (left, middle, right):
-        axes.set_aspect("equal")
-        axes.set_axis_off()
-        axes.autoscale_view()
-    with replaced_file(path) as out:
-        figure.savefig(out, format=path.suffix[1:].lower())
+    middle.set_title(caption)
+    _draw_faces_by_error(figure, right, measured, image, np.arange(float(count)))
+    _fit((left, middle, right))
+    return figure
 
 
-def draw_sphere_map(path: Path, result: SphereMap, title: str) -> None:
-    """Draw a closed surface and its sphere from two sides in the same colours, and the angle error on the sphere."""
+def _sphere_figure(
+    V: NDArray[np.float64],
+    F: NDArray[np.integer],
+    xyz: NDArray[np.float64],
+    measured: Distortion,
+    title: str,
+    caption: str,
+) -> Figure:
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(15, 5.4), dpi=130, layout="constrained")
     axes = figure.subplots(1, 3)
-    F, xyz = result.surface.F, result.xyz
     middle = xyz[F].mean(axis=1)
     hue = 0.5 + 0.45 * middle / np.linalg.norm(middle, axis=1, keepdims=True)
     hue = np.column_stack((hue, np.ones(len(F))))
-    for place, positions in ((axes[0], result.surface.V), (axes[1], xyz)):
+    for place, positions in ((axes[0], V), (axes[1], xyz)):
         flat, depth, shade = _view(positions[F])
         far_first = np.argsort(depth)
         _add_faces(place, flat[far_first], (hue * np.sqrt(shade))[far_first])
     axes[0].set_title(f"{title}: {len(xyz)} vertices")
-    axes[1].set_title(f"{result.method} map, conformal energy {result.conformal_energy:.3g}")
+    axes[1].set_title(caption)
     flat, depth, _ = _view(xyz[F])
-    _draw_faces_by_error(figure, axes[2], result.distortion, flat, depth)
-    for place in axes:
-        place.set_aspect("equal")
-        place.set_axis_off()
-        place.autoscale_view()
-    with replaced_file(path) as out:
-        figure.savefig(out, format=path.suffix[1:].lower())
+    _draw_faces_by_error(figure, axes[2], measured, flat, depth)
+    _fit(axes)
+    return figure
+
+
+def _fit(places: Iterable[Axes]) -> None:
+    for axes in places:
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+        axes.autoscale_view()
 
 
 def _draw_faces_by_error(
