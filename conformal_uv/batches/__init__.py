@@ -1,6 +1,6 @@
 """Thousands of mesh files mapped side by side, in processes of this machine or on a cluster."""
 
-from .batch import batch, batch_tasks, run_batch
+from .run import batch, batch_tasks, run_batch
 from .plan import Plan
 from .row import BatchRow, Outcome
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import importlib.util
 import io
 import json
 import os
@@ -86,11 +85,11 @@ def write_tables(folder: Path, rows: Iterable[BatchRow]) -> None:
     writer.writerows(stored)
     with replaced_file(folder / TABLE) as out:
         out.write(text.getvalue().encode())
-    if importlib.util.find_spec("pyarrow") is None:
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError:  # or one that does not go with this numpy
         return
-    import pyarrow as pa
-    from pyarrow import parquet
-
     kinds = {"int": pa.int64(), "float": pa.float64()}
     schema = pa.schema([(name, kinds.get(_kind(name), pa.string())) for name in NAMES])
     plain = [{name: str(value) if name == "status" else value for name, value in row.items()} for row in stored]

@@ -14,7 +14,15 @@ from pathlib import Path
 from typing import Any
 
 from .._version import __version__
-from ..errors import ConformalUVError, FileFormatError, MeshError, OptionError, Remedy
+from ..errors import (
+    ConformalUVError,
+    FileFormatError,
+    MeshError,
+    MissingDependencyError,
+    OptionError,
+    Remedy,
+    SolverError,
+)
 from ..files import MeshFile, read_mesh, write_mesh
 from ..options import MapKind, SphereLayout
 from .numbers import sphere_fields, unwrapped_fields
@@ -27,6 +35,7 @@ __all__ = ["worked"]
 
 LOG = logging.getLogger("conformal_uv")
 LASTING = (MeshError, FileFormatError, OptionError)  # of reading and mapping, which depend on the input alone
+PASSING = (SolverError, MissingDependencyError)
 PIECE = 1 << 22
 
 
@@ -54,7 +63,8 @@ def worked(task: Task) -> BatchRow:
             told["output_hash"] = _hash(task.target)
             told |= {"status": Outcome.DONE, **partial}
         except Exception as error:  # of whatever kind: one mesh does not end a batch
-            lasts = stage != "write" and isinstance(error, LASTING)
+            # The base class itself says that the charts of a mesh have each an error of their own.
+            lasts = stage != "write" and (isinstance(error, LASTING) or type(error) is ConformalUVError)
             status = Outcome.REFUSED if lasts else Outcome.FAILED
             told |= {"status": status, "error": type(error).__name__, "message": _text(task, error)}
     told |= {"warnings": "; ".join(warned) or None, "seconds": time.perf_counter() - began, "peak_memory": _peak()}
@@ -74,8 +84,9 @@ def _mapped(task: Task, mesh_file: MeshFile) -> tuple[dict[str, Any], MeshFile, 
     result = unwrapped_file(mesh_file, words=words, shape=str(task.plan.kind), **given)
     partial = {}
     if not result.mapped[result.chart_of_face >= 0].all():
-        first = next(iter(result.charts.errors.values()))
-        partial = {"status": Outcome.PARTIAL, "error": type(first).__name__, "message": result.told(words)}
+        errors = list(result.charts.errors.values())
+        named = next((error for error in errors if isinstance(error, PASSING)), errors[0])
+        partial = {"status": Outcome.PARTIAL, "error": type(named).__name__, "message": result.told(words)}
     return unwrapped_fields(result), mesh_file, stored_uv(result, mesh_file.mesh.sizes), partial
 
 
@@ -92,7 +103,7 @@ def _write(task: Task, image: MeshFile, corner_uv: Any) -> None:
 def _stands(task: Task, told: dict[str, Any]) -> bool:
     """Whether the row of an earlier run holds still."""
     row = task.before
-    if row is None or not row.status.lasts:
+    if row is None or not row.status.lasts or row.error in {kind.__name__ for kind in PASSING}:
         return False
     if any(getattr(row, name) != told[name] for name in ("map", "options", "version", "input_hash")):
         return False
