@@ -84,12 +84,12 @@ def batch(
 
     Examples
     --------
-    >>> import tempfile
+    >>> import pathlib, tempfile
     >>> import conformal_uv as cuv
     >>> folder = tempfile.mkdtemp()
     >>> text = "v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nv 1 1 1\\nf 1 2 3\\nf 2 4 3\\n"
     >>> for name in "ab":
-    ...     written = open(f"{folder}/{name}.obj", "w").write(text)
+    ...     written = pathlib.Path(folder, f"{name}.obj").write_text(text)
     >>> rows = list(cuv.batch(f"{folder}/*.obj", out=f"{folder}/maps", map="free", workers=0))
     >>> [str(row.status) for row in rows], [row.kept for row in rows]
     (['done', 'done'], [False, False])
