@@ -7,8 +7,8 @@ __all__ = ["markdown"]
 
 def markdown(runs: dict[str, dict[str, float]], count: int) -> str:
     """A row for each run; throughput after the first mesh, without the start of the workers."""
-    head = "| run | seconds | processor seconds | meshes a second after the first | of one process | largest process | all |"
-    lines = [f"{count} meshes", "", head, "|" + "---|" * 7]
+    columns = ["run", "seconds", "processor seconds", "meshes a second", "of one process", "largest process", "all"]
+    lines = [f"{count} meshes", "", f"| {' | '.join(columns)} |", "|" + "---|" * len(columns)]
     alone = _rate(next(iter(runs.values())))
     for name, run in runs.items():
         rate = "" if run["kept"] else f"{_rate(run):.2f}"

@@ -10,7 +10,8 @@ from ..linear.memory import factorization_memory
 __all__ = ["estimated_memory", "estimated_vertices"]
 
 # Bytes of a file for each vertex and its two triangles, at the least: a mesh is rather taken for larger than it is.
-# PLY and npz with single precision, the latter a little packed; OBJ and OFF with short numbers; STL has the corners of each triangle.
+# PLY and npz with single precision, the latter a little packed; OBJ and OFF with short numbers; STL has the corners of
+# each triangle.
 BYTES = {".obj": 40, ".ply": 38, ".off": 40, ".stl": 100, ".npz": 30, ".glb": 24, ".vtu": 20}
 OTHERS = 20
 PACKED = 4  # what gzip makes of text, about
