@@ -108,7 +108,7 @@ def _task(entry: Entry, out: Path, plan: Plan, before: Mapping[str, BatchRow]) -
     target = os.path.abspath(out / _written(Path(entry.output), own.given))
     if os.path.realpath(target) == os.path.realpath(entry.input):
         raise OptionError(f"{entry.input} would be replaced by its map; choose another folder for the maps.")
-    return Task(entry.input, target, own, estimated_memory(entry.input), before.get(target))
+    return Task(entry.input, target, own, estimated_memory(entry.input, own.kind), before.get(target))
 
 
 def _written(path: Path, given: Mapping[str, Any]) -> Path:
