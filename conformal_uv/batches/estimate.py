@@ -17,9 +17,9 @@ BYTES = {".obj": 50, ".ply": 38, ".off": 40, ".stl": 100, ".npz": 30, ".glb": 24
 OTHERS = 20
 PACKED = 4  # what gzip makes of text, about
 
-# Growth of the process's peak beyond the factorizations', measured on terrains of 20,000 and 200,000 vertices: 500 and 390
-# bytes a vertex for a disk, 580 and 430 with a free boundary. The sphere keeps two factorizations, and takes beyond them
-# 450 and 280 at 10,242 and 40,962 vertices. The process itself takes 93 MB.
+# Growth of the process's peak beyond the factorizations', measured on terrains of 20,000 and 200,000 vertices: 500 and
+# 390 bytes a vertex for a disk, 580 and 430 with a free boundary. The sphere keeps two factorizations, and takes beyond
+# them 450 and 280 at 10,242 and 40,962 vertices. The process itself takes 93 MB.
 PROCESS = 120 << 20
 A_VERTEX = 700
 
