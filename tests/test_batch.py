@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from meshes_closed import icosphere
@@ -240,21 +241,62 @@ def test_warnings_of_the_library_stand_in_the_row(tmp_path) -> None:
     assert row.converged_charts == 0 and "newton" in row.warnings
 
 
-def test_as_many_in_work_as_there_is_memory_for() -> None:
-    from conformal_uv.batches.flight import _Flight, _Flown
+def flown(memory: int = 0, alone: bool = False) -> Any:
+    from conformal_uv.batches.flight import _Flown
 
-    def flown(memory: int) -> _Flown:
-        return _Flown(Task("a", "b", Plan.of("disk", {}), memory), False)
+    return _Flown(Task("a", "b", Plan.of("disk", {}), memory), alone)
 
-    flight = _Flight(SimpleNamespace(memory=100, threads=2, client=None))
+
+def flight_of(client: Any, memory: int | None = None, threads: int = 1) -> Any:
+    from conformal_uv.batches.flight import _Flight
+
+    return _Flight(SimpleNamespace(memory=memory, threads=threads, client=client))
+
+
+def test_as_many_in_work_as_there_is_memory_for(client) -> None:
+    flight = flight_of(client, 100, 2)
     assert flight.admits(flown(1000))  # alone, for it may be taken for larger than it is
     flight._flown, flight._memory = {1: flown(60)}, 60
     assert flight.admits(flown(40)) and not flight.admits(flown(41))
     flight._flown = dict.fromkeys(range(4), flown(1))
     assert not flight.admits(flown(1))  # two for each thread
-    unlimited = _Flight(SimpleNamespace(memory=None, threads=1, client=None))
+    unlimited = flight_of(client)
     unlimited._flown, unlimited._memory = {1: flown(60)}, 60
     assert unlimited.admits(flown(10**12))
+
+
+def landed(client: Any, task: Any, status: str, error: BaseException) -> Any:
+    """What is made of a future that ended so."""
+
+    def result() -> None:
+        raise error
+
+    flight, future = flight_of(client), type("Future", (), {"status": status, "result": staticmethod(result)})()
+    flight._flown, flight._completed = {future: task}, iter([future])
+    return flight.landed()
+
+
+def test_who_dies_with_others_is_tried_alone_and_then_set_aside(client) -> None:
+    from distributed.scheduler import KilledWorker
+
+    error = KilledWorker("a", None, 3)  # of a scheduler as it is by default
+    again, row = landed(client, flown(), "error", error)
+    assert row is None and (again.alone, again.deaths) == (True, 4)
+    _, row = landed(client, again, "error", error)
+    assert row.status == Outcome.KILLED and "8 workers died" in row.message
+
+
+def test_what_else_may_come_of_a_task(client) -> None:
+    for status, error in (("cancelled", RuntimeError()), ("lost", RuntimeError()), ("finished", OSError("closed"))):
+        with pytest.raises(ConnectionError, match="has gone away"):
+            landed(client, flown(), status, error)
+    wrapped = RuntimeError("deserialization")
+    wrapped.__cause__ = ImportError("No module named 'conformal_uv'")
+    for error in (wrapped, wrapped.__cause__):
+        with pytest.raises(cuv.MissingDependencyError, match="install it there"):
+            landed(client, flown(), "error", error)
+    _, row = landed(client, flown(), "error", ValueError("?"))
+    assert (row.status, row.error, row.message) == (Outcome.FAILED, "ValueError", "?")
 
 
 def test_workers_that_are_large_enough(client) -> None:

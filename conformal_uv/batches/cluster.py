@@ -93,6 +93,12 @@ def connected(scheduler: Any, workers: int | None) -> Iterator[Fleet]:
         with _local(workers or CPU_COUNT) as fleet:
             yield fleet
         return
+    with _silent("distributed.client"):
+        yield from _elsewhere(scheduler)
+
+
+def _elsewhere(scheduler: Any) -> Iterator[Fleet]:
+    """The fleet of an address or an object."""
     if isinstance(scheduler, Client):
         yield Fleet(scheduler)
         return
@@ -126,6 +132,18 @@ def _local(workers: int) -> Iterator[Fleet]:
     ):
         client.register_plugin(_Uninterrupted(), name="conformal-uv-uninterrupted")
         yield Fleet(client, int(PART * memory) if memory else None)
+
+
+@contextmanager
+def _silent(name: str) -> Iterator[None]:
+    """Without the messages of a logger; a scheduler that goes away is told of by the error."""
+    logger = logging.getLogger(name)
+    level = logger.level
+    logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
 
 
 class _Uninterrupted(WorkerPlugin):

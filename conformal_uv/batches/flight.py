@@ -25,6 +25,7 @@ from .worked import worked
 __all__ = ["rows_in_flight"]
 
 DEATHS = 3  # of workers, after which a task is set aside
+GONE = "The scheduler or its connection has gone away; what is done is kept, and the same run again goes on."
 AHEAD = 2  # tasks for each thread: one in work and one that waits beside it
 
 
@@ -70,7 +71,7 @@ class _Flight:
     def __init__(self, fleet: Fleet) -> None:
         self._fleet, self._memory = fleet, 0
         self._flown: dict[Future, _Flown] = {}
-        self._completed = as_completed()
+        self._completed = as_completed(loop=fleet.client.loop)
         self._name = f"conformal-uv-{uuid.uuid4().hex}"
         self._count = 0
 
@@ -106,16 +107,20 @@ class _Flight:
         future = next(self._completed)
         flown = self._flown.pop(future)
         self._memory -= flown.task.memory
-        if future.status == "finished":
+        if future.status in ("cancelled", "lost"):
+            raise ConnectionError(GONE)
+        try:
             return flown, future.result()
-        if future.status != "error":
-            raise ConnectionError("The scheduler or its connection has gone away; run the same again to go on.")
-        error = future.exception()
-        if isinstance(error, KilledWorker):
+        except KilledWorker as error:
             return self._died(flown, error)
-        if isinstance(error, ImportError):
-            raise MissingDependencyError(f"The workers can not load conformal_uv ({error}); install it there.")
-        return flown, _row(flown.task, Outcome.FAILED, type(error).__name__, str(error))
+        except OSError as error:  # of the connection: a task tells of its own in its row
+            raise ConnectionError(GONE) from error
+        except ImportError as error:
+            raise _missing(error) from error
+        except Exception as error:
+            if isinstance(error.__cause__, ImportError):
+                raise _missing(error.__cause__) from error
+            return flown, _row(flown.task, Outcome.FAILED, type(error).__name__, str(error))
 
     def _died(self, flown: _Flown, error: KilledWorker) -> tuple[_Flown, BatchRow | None]:
         deaths = flown.deaths + error.allowed_failures + 1
@@ -130,6 +135,12 @@ class _Flight:
         """Give up what has not ended."""
         if self._flown and self._fleet.client.status == "running":
             self._fleet.client.cancel(list(self._flown))
+
+
+def _missing(error: ImportError) -> MissingDependencyError:
+    return MissingDependencyError(
+        f"The scheduler or its workers can not load conformal_uv ({error}); install it there."
+    )
 
 
 def _row(task: Task, status: Outcome, error: str, message: str) -> BatchRow:
