@@ -33,7 +33,7 @@ from .unwrapped_file import stored_uv, unwrapped_file
 
 __all__ = ["worked"]
 
-LOG = logging.getLogger("conformal_uv")
+LOG = logging.getLogger(__name__.rsplit(".", 2)[0])  # of the whole package, whatever it is called where it is carried
 LASTING = (MeshError, FileFormatError, OptionError)  # of reading and mapping, which depend on the input alone
 PASSING = (SolverError, MissingDependencyError)
 PIECE = 1 << 22
