@@ -302,6 +302,7 @@ def test_what_else_may_come_of_a_task(client) -> None:
 def test_workers_that_are_large_enough(client) -> None:
     from conformal_uv.batches.cluster import PART, Fleet
 
+    client.wait_for_workers(2)  # one may just be beginning again
     fleet = Fleet(client)
     fleet.look()
     assert fleet.threads == 2 and fleet.memory is not None and fleet.memory > 1 << 28
