@@ -12,6 +12,7 @@ from ._version import __version__
 from .shown import Shown
 
 if TYPE_CHECKING:
+    from .batches import BatchRow, batch
     from .charts import (
         Chart,
         DiskIsland,
@@ -92,6 +93,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AugmentedLagrangianStep",
+    "BatchRow",
     "Callback",
     "CancelledError",
     "Chart",
@@ -139,6 +141,7 @@ __all__ = [
     "__version__",
     "angle_colors",
     "area_colors",
+    "batch",
     "cotangent_laplacian",
     "cotangent_laplacian_intrinsic",
     "disk_islands",
@@ -172,6 +175,7 @@ __all__ = [
 
 _HOME = {
     "AugmentedLagrangianStep": "optimize",
+    "BatchRow": "batches",
     "Callback": "progress",
     "CancelledError": "errors",
     "Chart": "charts",
@@ -218,6 +222,7 @@ _HOME = {
     "Unwrapper": "charts",
     "angle_colors": "distortion_colors",
     "area_colors": "distortion_colors",
+    "batch": "batches",
     "cotangent_laplacian": "operators",
     "cotangent_laplacian_intrinsic": "operators",
     "disk_islands": "charts",

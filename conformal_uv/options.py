@@ -28,6 +28,7 @@ __all__ = [
     "FreeOptions",
     "Holes",
     "Laplacian",
+    "MapKind",
     "MarginMethod",
     "Method",
     "NonManifold",
@@ -244,6 +245,19 @@ class Shape(Choice):
     DISK = "disk"
     FREE = "free"
     RECTANGLE = "rectangle"
+
+    @classmethod
+    def _joint(cls) -> str:
+        return ", "
+
+
+class MapKind(Choice):
+    """What a batch makes of its surfaces: the shapes of charts, or the sphere."""
+
+    DISK = "disk"
+    FREE = "free"
+    RECTANGLE = "rectangle"
+    SPHERE = "sphere"
 
     @classmethod
     def _joint(cls) -> str:

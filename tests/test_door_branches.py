@@ -15,10 +15,9 @@ import conformal_uv as cuv
 from conformal_uv import PolygonMesh
 from conformal_uv.cli.app import app
 from conformal_uv.cli.outputs import Outputs
-from conformal_uv.cli.seams import read_seams
 from conformal_uv.console import stages
 from conformal_uv.console.summary import distortion_summary
-from conformal_uv.files import MeshFile
+from conformal_uv.files import MeshFile, read_seams
 from conformal_uv.pictures.figure import _joined
 
 

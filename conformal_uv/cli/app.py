@@ -13,6 +13,7 @@ from .._version import __version__
 from ..console.interrupt import interruptible
 from ..console.terminal import plain
 from ..errors import ConformalUVError, Remedy
+from .batch import batch
 from .disk import disk
 from .free import free
 from .rectangle import rectangle
@@ -70,5 +71,5 @@ def options(
     """Flatten surfaces, or map them to the unit sphere, with their angles kept."""
 
 
-for command in (disk, free, rectangle, sphere, view, report, sample):
+for command in (disk, free, rectangle, sphere, batch, view, report, sample):
     app.command()(interruptible(_told(command)))

@@ -7,19 +7,17 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from numpy.typing import NDArray
 
 from ..console.stages import Stages
 from ..console.summary import distortion_summary, print_rows
 from ..errors import MeshError
 from ..files import MeshFile, read_mesh
 from ..mesh import Surface
-from ..mesh.geometry import triangle_geometry
 from ..mesh.triangulate import triangulate
-from ..operators.distortion import distortion_of
 from ..operators.laplacian import cotangent_weights
 from ..report import distortion_numbers
 from .outputs import Outputs
+from .texture import texture_of
 
 __all__ = ["report"]
 
@@ -35,7 +33,7 @@ def report(
     outputs.check()
     with Stages(quiet=True):
         mesh_file = read_mesh(source, format=format)
-    F, _, corner_of = triangulate(mesh_file.mesh)
+    F, _, _ = triangulate(mesh_file.mesh)
     summary: dict[str, Any] = {
         "input": str(source),
         "vertices": len(mesh_file.mesh.V),
@@ -46,7 +44,7 @@ def report(
         summary.update(_surface_summary(Surface.from_arrays(mesh_file.mesh.V, F)))
     except MeshError as error:
         summary["not_a_surface"] = f"{type(error).__name__}: {error}"
-    summary["uv"] = _uv_summary(mesh_file, corner_of)
+    summary["uv"] = _uv_summary(mesh_file)
     outputs.write_numbers(summary)
     if not quiet:
         _print(summary, stderr=outputs.on_stdout)
@@ -78,29 +76,15 @@ def _surface_summary(surface: Surface) -> dict[str, Any]:
     }
 
 
-def _uv_summary(mesh_file: MeshFile, corner_of: NDArray[np.int64]) -> dict[str, Any] | None:
+def _uv_summary(mesh_file: MeshFile) -> dict[str, Any] | None:
     """Distortion of the file's own UVs over the faces that have them and have area."""
-    uv = mesh_file.corner_uv
-    if uv is None:
+    texture = texture_of(mesh_file)
+    if texture is None:
         return None
-    has = np.isfinite(uv[corner_of]).all(axis=(1, 2))
-    corners = corner_of[has].T.astype(np.int32)
-    if not corners.size:
-        return None
-    positions = mesh_file.mesh.V[mesh_file.mesh.corners]
-    positions = positions / max(np.abs(positions).max(), np.finfo(np.float64).tiny)
-    geometry = triangle_geometry(positions, corners)
-    good = np.ones(corners.shape[1], dtype=bool)
-    good[geometry.degenerate] = False
-    if not good.any():
-        return None
-    corners = np.ascontiguousarray(corners[:, good])
-    filled = np.nan_to_num(uv, nan=0.0)
-    measured = distortion_of(triangle_geometry(positions, corners), corners, filled)
     return {
-        "triangles": corners.shape[1],
-        **distortion_summary(distortion_numbers([measured])),
-        "flipped_faces": len(measured.flipped),
+        "triangles": len(texture.corners),
+        **distortion_summary(distortion_numbers([texture.distortion])),
+        "flipped_faces": len(texture.distortion.flipped),
     }
 
 

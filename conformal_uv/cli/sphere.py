@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
-from numpy.typing import NDArray
 
 from .._version import __version__
+from ..batches.sphere_file import sphere_file, stored_sphere
 from ..console.stages import Stages
 from ..console.summary import angles_text, distortion_summary, iterations_text, print_rows
-from ..files import MeshFile, read_mesh, write_mesh
-from ..mesh.polygons import PolygonMesh
+from ..files import read_mesh, write_mesh
 from ..options import Backend, Laplacian, Normalization, Repair, Rotation, SphereBoundary, SphereLayout, SphereMethod
 from ..page import write_page
 from ..pictures.figure import draw_map
 from ..report import distortion_numbers
-from ..sphere import SphereMap, sphere_map
-from ..sphere.layout import equirectangular, octahedral
+from ..sphere import SphereMap
 from .arguments import PageFile
-from .compact import compact_triangles
 from .numbers import three_numbers
 from .outputs import Outputs
 
@@ -67,10 +62,8 @@ def sphere(
     with Stages(quiet=quiet) as stages:
         stages("read", 0.0)
         mesh = read_mesh(source, format=format).mesh
-        V, F = compact_triangles(mesh)
-        result = sphere_map(
-            V,
-            F,
+        result = sphere_file(
+            mesh,
             method=method,
             normalization=normalization,
             rotation=rotation,
@@ -83,30 +76,16 @@ def sphere(
         )
         stages("distortion", 0.0)
         summary = _summary(result, str(source), str(target), stages.seconds)
-        image = replace(mesh, V=_on_all(result.xyz, mesh))
-        corner_uv = _layout(uv, image)
+        image, corner_uv = stored_sphere(result, mesh, uv, target)
         outputs.write(
             stages,
             summary,
-            lambda path: write_mesh(path, MeshFile(path, image), corner_uv=corner_uv, split=split, format=format),
+            lambda path: write_mesh(path, image, corner_uv=corner_uv, split=split, format=format),
             lambda path: draw_map(path, result, source.name),
             lambda path: write_page(path, result, source.name),
         )
     if not quiet:
         _print(summary, stderr=outputs.on_stdout)
-
-
-def _on_all(xyz: NDArray[np.float64], mesh: PolygonMesh) -> NDArray[np.float64]:
-    """Positions for all vertices of the file; those in no face stay where they are."""
-    V = mesh.V.copy()
-    V[np.unique(mesh.corners)] = xyz
-    return V
-
-
-def _layout(uv: SphereLayout, image: PolygonMesh) -> NDArray[np.float64]:
-    if uv is SphereLayout.NONE:
-        return np.full((len(image.corners), 2), np.nan)
-    return (equirectangular if uv is SphereLayout.EQUIRECTANGULAR else octahedral)(image.V, image)
 
 
 def _summary(result: SphereMap, source: str, target: str, seconds: dict[str, float]) -> dict[str, Any]:

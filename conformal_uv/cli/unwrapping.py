@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import typer
 
-from ..charts import Unwrapped, unwrap
+from ..batches.unwrapped_file import stored_uv, unwrapped_file
 from ..console.stages import Stages
 from ..console.summary import print_summary, unwrapped_summary
 from ..console.terminal import plain
@@ -18,7 +17,6 @@ from ..options import Shape, Upright
 from ..page import write_page
 from ..pictures.figure import draw_map
 from .outputs import Outputs
-from .seams import read_seams
 
 __all__ = ["unwrap_file"]
 
@@ -52,14 +50,18 @@ def unwrap_file(
     with Stages(quiet=quiet) as stages:
         stages("read", 0.0)
         mesh_file = read_mesh(source, format=format)
-        cut = read_seams(seams, mesh_file)
-        result = unwrap(None, mesh_file.mesh, shape=shape, seams=cut, upright=upright, callback=stages, **options)
-        failure = result.failure(Remedy.as_flag)
-        if failure is not None:
-            raise failure
+        result = unwrapped_file(
+            mesh_file,
+            seams=seams,
+            words=Remedy.as_flag,
+            shape=shape,
+            upright=upright,
+            callback=stages,
+            **options,
+        )
         stages("distortion", 0.0)
         summary = unwrapped_summary(result, str(source), str(target), stages.seconds)
-        corner_uv = _corner_uv(result, mesh_file.mesh.sizes)
+        corner_uv = stored_uv(result, mesh_file.mesh.sizes)
         outputs.write(
             stages,
             summary,
@@ -72,10 +74,3 @@ def unwrap_file(
     if not result.mapped[result.chart_of_face >= 0].all():
         typer.echo(plain(result.told(Remedy.as_flag)), err=True)
         raise typer.Exit(1)
-
-
-def _corner_uv(result: Unwrapped, sizes: np.ndarray) -> np.ndarray:
-    """Texture coordinates of all corners; NaN, which leaves a file's own ones, where nothing was mapped."""
-    uv = result.uv.copy()
-    uv[~np.repeat(result.mapped, sizes)] = np.nan
-    return uv

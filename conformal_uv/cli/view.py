@@ -10,7 +10,7 @@ import typer
 from ..charts import unwrap
 from ..console.stages import Stages
 from ..errors import MeshError, OptionError, Remedy
-from ..files import check_distinct, check_place, read_mesh, replaced_file
+from ..files import check_distinct, check_place, read_mesh, read_seams, replaced_file
 from ..mapped_mesh import AnyMap, mapped_mesh
 from ..mesh import Surface
 from ..mesh.polygons import PolygonMesh
@@ -22,7 +22,6 @@ from ..show.polyscope_window import show_in_window, window_picture
 from ..sphere import sphere_map
 from .arguments import ClosedPieces, NonManifoldParts, Quiet, Seams, Source, UpAxis, Winding
 from .compact import compact_triangles
-from .seams import read_seams
 
 __all__ = ["view"]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import re
 import secrets
 import sys
 from collections.abc import Iterator
@@ -13,7 +14,9 @@ from typing import BinaryIO
 from ..errors import FileFormatError
 from .places import descriptor_of, is_stream
 
-__all__ = ["replaced_file"]
+__all__ = ["TEMPORARY", "replaced_file"]
+
+TEMPORARY = re.compile(r"\.[0-9a-f]{16}\.tmp")  # names of files that are to replace others
 
 
 @contextlib.contextmanager

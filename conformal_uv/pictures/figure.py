@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ from ..errors import MissingDependencyError, OptionError
 from ..files import replaced_file
 from ..free import FreeMap
 from ..mapped_mesh import AnyMap, mapped_mesh
-from ..operators import Distortion
+from ..operators import Distortion, distortion
 from ..options import Upright
 from ..rectangle import RectangleMap
 from ..report import shape_name
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["check_drawable", "draw_figure", "draw_map", "map_figure"]
+__all__ = ["check_drawable", "draw_figure", "draw_map", "map_figure", "sphere_picture", "texture_picture"]
 
 SUFFIXES = (".png", ".pdf", ".svg")
 
@@ -55,11 +56,11 @@ def draw_figure(path: Path, figure: Figure) -> None:
 
 def map_figure(result: AnyMap, title: str = "", upright: Upright = Upright.NONE) -> Figure:
     """The surface, `upright` as charts are, its map, and the angle error on the map; spheres in matching colours."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(15, 5.4), dpi=130, layout="constrained")
+    figure = _empty()
     if isinstance(result, SphereMap):
-        _draw_sphere(figure, result, title)
+        mapped = mapped_mesh(result)
+        caption = f"{result.method} map, conformal energy {result.conformal_energy:.3g}"
+        _draw_sphere(figure, mapped.V, mapped.F, mapped.image, mapped.distortion, (title, caption))
     elif isinstance(result, Unwrapped):
         charts = [chart for chart in result.charts if chart.map is not None]
         corners = np.concatenate([chart.mesh.V[chart.F] for chart in charts])
@@ -69,11 +70,50 @@ def map_figure(result: AnyMap, title: str = "", upright: Upright = Upright.NONE)
         mapped = mapped_mesh(result)
         titles = title, _map_caption(result)
         _draw_plane(figure, mapped.V[mapped.F], mapped.image[mapped.F], mapped.distortion, upright, titles)
+    return _fitted(figure)
+
+
+def texture_picture(
+    corners: NDArray[np.float64],
+    image: NDArray[np.float64],
+    measured: Distortion,
+    titles: tuple[str, str],
+    upright: Upright,
+    dpi: float,
+) -> bytes:
+    """A PNG of triangles (m, 3, 3) and their texture coordinates (m, 3, 2), as `map_figure` shows them."""
+    figure = _empty()
+    _draw_plane(figure, corners, image, measured, upright, titles)
+    return _png(_fitted(figure), dpi)
+
+
+def sphere_picture(
+    V: NDArray[np.float64], F: NDArray[np.int64], xyz: NDArray[np.float64], titles: tuple[str, str], dpi: float
+) -> bytes:
+    """A PNG of a closed surface and its image on the sphere, as `map_figure` shows them."""
+    figure = _empty()
+    _draw_sphere(figure, V, F, xyz, distortion(V, F, xyz), titles)
+    return _png(_fitted(figure), dpi)
+
+
+def _empty() -> Figure:
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(15, 5.4), dpi=130, layout="constrained")
+
+
+def _fitted(figure: Figure) -> Figure:
     for axes in figure.axes[:3]:
         axes.set_aspect("equal")
         axes.set_axis_off()
         axes.autoscale_view()
     return figure
+
+
+def _png(figure: Figure, dpi: float) -> bytes:
+    out = io.BytesIO()
+    figure.savefig(out, format="png", dpi=dpi)
+    return out.getvalue()
 
 
 def _draw_plane(
@@ -97,22 +137,27 @@ def _draw_plane(
     _draw_faces_by_error(figure, right, measured, image, np.arange(float(count)))
 
 
-def _draw_sphere(figure: Figure, result: SphereMap, title: str) -> None:
+def _draw_sphere(
+    figure: Figure,
+    V: NDArray[np.float64],
+    F: NDArray[np.integer],
+    xyz: NDArray[np.float64],
+    measured: Distortion,
+    titles: tuple[str, str],
+) -> None:
     """A closed surface and its sphere in the same colours, and the angle error on the sphere."""
     axes = figure.subplots(1, 3)
-    mapped = mapped_mesh(result)
-    F, xyz = mapped.F, mapped.image
     middle = xyz[F].mean(axis=1)
     hue = 0.5 + 0.45 * middle / np.linalg.norm(middle, axis=1, keepdims=True)
     hue = np.column_stack((hue, np.ones(len(F))))
-    for place, positions in ((axes[0], mapped.V), (axes[1], xyz)):
+    for place, positions in ((axes[0], V), (axes[1], xyz)):
         flat, depth, shade = seen_triangles(positions[F])
         far_first = np.argsort(depth)
         _add_faces(place, flat[far_first], (hue * np.sqrt(shade))[far_first])
-    axes[0].set_title(": ".join(filter(None, (title, f"{len(xyz)} vertices"))))
-    axes[1].set_title(f"{result.method} map, conformal energy {result.conformal_energy:.3g}")
+    axes[0].set_title(": ".join(filter(None, (titles[0], f"{len(xyz)} vertices"))))
+    axes[1].set_title(titles[1])
     flat, depth, _ = seen_triangles(xyz[F])
-    _draw_faces_by_error(figure, axes[2], mapped.distortion, flat, depth)
+    _draw_faces_by_error(figure, axes[2], measured, flat, depth)
 
 
 def _draw_faces_by_error(

@@ -1,4 +1,4 @@
-"""Seams for the command: from a text file, or from where the mesh's own UVs are torn."""
+"""Seams: from a text file, or from where the mesh's own UVs are torn."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FileFormatError, OptionError
-from ..files import MeshFile
 from ..mesh.polygon_sides import following_corners
+from .mesh_file import MeshFile
 
 __all__ = ["read_seams"]
 
