@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     )
     from .disk import DiskMap, DiskMapper, disk_map
     from .disk.repair import Repair
+    from .distributed import DistributedDiskMap, distributed_disk_map
     from .errors import (
         CancelledError,
         ConformalUVError,
@@ -129,6 +130,7 @@ _HOME = {
     "DisconnectedError": "errors",
     "DiskMap": "disk",
     "DiskMapper": "disk",
+    "DistributedDiskMap": "distributed",
     "Distortion": "operators",
     "DistortionNumbers": "report",
     "DuplicateFaceError": "errors",
@@ -160,6 +162,7 @@ _HOME = {
     "cotangent_laplacian_intrinsic": "operators",
     "disk_map": "disk",
     "distortion": "operators",
+    "distributed_disk_map": "distributed",
     "distortion_numbers": "report",
     "equirectangular": "sphere",
     "face_areas": "operators",

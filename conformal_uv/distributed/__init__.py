@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .disk_map import DistributedDiskMap, distributed_disk_map
+from .files import read_slice, write_slices
 from .numbers import MapNumbers
 
-__all__ = ["DistributedDiskMap", "MapNumbers", "distributed_disk_map"]
+__all__ = ["DistributedDiskMap", "MapNumbers", "distributed_disk_map", "read_slice", "write_slices"]

@@ -31,7 +31,7 @@ def joined_components(ranks: Ranks, shares: Shares, u: Ints, v: Ints) -> Ints:
         label = fetched(ranks, shares, label, label)
 
 
-def local_representatives(count: int, one: Ints, other: Ints, names: Ints) -> Ints:
+def local_representatives(count: int, one: NDArray[np.integer], other: NDArray[np.integer], names: Ints) -> Ints:
     """The lowest name in the component of each of `count` nodes of this rank, edges one, other."""
     graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(count, count))
     pieces, label = connected_components(graph, directed=False)

@@ -71,7 +71,8 @@ class DistributedDirichlet:
         told, _, _ = part.told_edges()
         negative = np.count_nonzero(told & (weights < -ROUNDING) & (part.edges.count == 2))
         self.negative = int(ranks.total(np.array([negative]))[0])
-        degree = np.bincount(part.edges.lo, weights, part.size) + np.bincount(part.edges.hi, weights, part.size)
+        degree: Real = np.bincount(part.edges.lo, weights, part.size).astype(np.float64, copy=False)
+        degree = degree + np.bincount(part.edges.hi, weights, part.size)
         self._blocks(degree)
         self._assemble(degree, solver)
 
