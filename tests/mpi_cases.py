@@ -81,7 +81,7 @@ def broken_meshes() -> dict[str, Mesh]:
     """A grid with one fault each; faults lie between ranks, or on the last."""
     V, F = terrain(400, seed=4)
     V, F = np.array(V, dtype=np.float64), np.array(F, dtype=np.int64)
-    n, m = len(V), len(F)
+    n = len(V)
     loop = set(cuv.Surface.from_arrays(V, F).require_disk().tolist())
     inner = np.array([not loop & set(face) for face in F.tolist()])
     middle = int(np.flatnonzero(inner)[inner.sum() // 2])
@@ -104,7 +104,7 @@ def broken_meshes() -> dict[str, Mesh]:
         twisted[face] = [{0: 1, 1: 0}.get(v, v) for v in twisted[face]]
     sphere = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
     tetrahedron = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
-    touching = np.concatenate((F, np.where(F == 0, n - 1, F + n)))
+    touching = np.concatenate((F, np.where(F == 0, n - 1, F + n - 1)))  # a corner of one grid is one of the other
     return {
         "nan": (nan, F),
         "outside": (V, range_),
@@ -119,7 +119,7 @@ def broken_meshes() -> dict[str, Mesh]:
         "two loops": (band, annulus),
         "closed": (tetrahedron, sphere),
         "two pieces": (np.concatenate((V, V + 5.0)), np.concatenate((F, F + n))),
-        "touching": (np.concatenate((V, V + 5.0)), touching),
+        "touching": (np.concatenate((V, V[1:] + 5.0)), touching),
         "hole": (V, np.delete(F, middle, axis=0)),
         "pinched spheres": (
             np.concatenate((tetrahedron, tetrahedron[1:] + 2.0)),

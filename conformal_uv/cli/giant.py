@@ -84,9 +84,7 @@ def _together(ranks: Ranks, work: Callable[[], None]) -> None:
 def _check(source: Path, target: Path, json_file: Path | None, unused: dict[str, bool]) -> None:
     given = [name for name, was_given in unused.items() if was_given]
     if given:
-        raise OptionError(
-            f"--backend petsc does without {', '.join(given)}; leave out {'it' if len(given) == 1 else 'them'}."
-        )
+        raise OptionError(f"--backend petsc does without {', '.join(given)}; leave that out.")
     if target.suffix.lower() != ".npz":
         raise OptionError(f"--backend petsc writes NPZ archives, not {target.name}; choose a name that ends in .npz.")
     check_distinct(None if source.is_dir() else source, {"OUT": target, "--json": json_file})

@@ -35,14 +35,16 @@ class MeshSlice(NamedTuple):
 
 def checked_slice(ranks: Ranks, V: ArrayLike, F: ArrayLike) -> MeshSlice:
     """Raise what `vertex_array` and `face_array` would of the whole mesh, with the same indices, on all ranks."""
+    rows = _rows_of_all(ranks, V)
     with ranks.agreed():
-        own_V = vertex_numbers(V)
+        own_V = vertex_numbers(V, rows)
     vertices = Shares.of_counts(ranks, len(own_V))
     bad = ranks.indices(vertices.first + np.flatnonzero(~np.isfinite(own_V).all(axis=1)))
     if len(bad):
         raise refusals.non_finite(bad, vertices.count)
+    rows = _rows_of_all(ranks, F)
     with ranks.agreed():
-        own_F = face_indices(F)
+        own_F = face_indices(F, rows)
     faces = Shares.of_counts(ranks, len(own_F))
     n = vertices.count
     if not faces.count or not n:
@@ -59,3 +61,9 @@ def checked_slice(ranks: Ranks, V: ArrayLike, F: ArrayLike) -> MeshSlice:
     if len(bad):
         raise refusals.repeated(bad)
     return MeshSlice(own_V, own_F, vertices, faces)
+
+
+def _rows_of_all(ranks: Ranks, array: ArrayLike) -> int | None:
+    """How many rows the ranks have together; None where one of them has no array."""
+    shapes = ranks.each(np.shape(array) if isinstance(array, np.ndarray) else ())
+    return sum(shape[0] for shape in shapes) if all(shapes) else None

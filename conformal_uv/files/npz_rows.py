@@ -176,7 +176,8 @@ def write_rows(place: ArrayRows, first: int, values: NDArray[Any]) -> int:
 def joined_crc(one: int, other: int, length: int) -> int:
     """The CRC-32 of two stretches of bytes after each other from theirs, the second being so long.
 
-    M. Adler's crc32_combine: zero bytes act on a CRC as a matrix over GF(2), which is squared for each bit of the length.
+    M. Adler's crc32_combine: zero bytes act on a CRC as a matrix over GF(2), which is squared for each bit of the
+    length.
     """
     shift = np.concatenate(([POLYNOMIAL], 1 << np.arange(31, dtype=np.int64)))  # one zero bit
     for _ in range(3):

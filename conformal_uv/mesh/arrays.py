@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -44,8 +46,8 @@ def vertex_array(V: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def vertex_numbers(V: ArrayLike) -> NDArray[np.float64]:
-    """The same, finite or not.
+def vertex_numbers(V: ArrayLike, rows: int | None = None) -> NDArray[np.float64]:
+    """The same, finite or not; where they are some rows of more, errors tell of `rows`.
 
     Raises
     ------
@@ -59,7 +61,7 @@ def vertex_numbers(V: ArrayLike) -> NDArray[np.float64]:
     except (TypeError, ValueError, OverflowError) as error:
         raise MeshError(f"V is not an array of numbers ({error}); pass vertices as (n, 3) floats.") from error
     if array.ndim != 2 or array.shape[1] not in (2, 3):
-        raise MeshError(f"V has shape {array.shape}; pass vertices as (n, 3) floats.")
+        raise MeshError(f"V has shape {_whole_shape(array, rows)}; pass vertices as (n, 3) floats.")
     if array.shape[1] == 2:
         array = np.column_stack((array, np.zeros(len(array))))
     return array
@@ -99,8 +101,8 @@ def face_array(F: ArrayLike, n: int) -> NDArray[np.int32]:
     return corners
 
 
-def face_indices(F: ArrayLike) -> NDArray[np.integer]:
-    """Triangles as integers (m, 3), whatever they are.
+def face_indices(F: ArrayLike, rows: int | None = None) -> NDArray[np.integer]:
+    """Triangles as integers (m, 3), whatever they are; `rows` as in `vertex_numbers`.
 
     Raises
     ------
@@ -108,8 +110,12 @@ def face_indices(F: ArrayLike) -> NDArray[np.integer]:
     """
     faces = _integers(F)
     if faces.ndim != 2 or faces.shape[1] != 3:
-        raise refusals.faces_shape(faces.shape)
+        raise refusals.faces_shape(_whole_shape(faces, rows))
     return faces
+
+
+def _whole_shape(array: NDArray[Any], rows: int | None) -> tuple[int, ...]:
+    return array.shape if rows is None else (rows, *array.shape[1:])
 
 
 def _integers(F: ArrayLike) -> NDArray[np.integer]:
