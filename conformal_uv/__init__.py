@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from .disk import DiskMap, DiskMapper, disk_map
     from .disk.repair import Repair
     from .distortion_colors import angle_colors, area_colors
+    from .distributed import DistributedDiskMap, distributed_disk_map
     from .errors import (
         CancelledError,
         ConformalUVError,
@@ -103,6 +104,7 @@ __all__ = [
     "DiskIsland",
     "DiskMap",
     "DiskMapper",
+    "DistributedDiskMap",
     "Distortion",
     "DistortionNumbers",
     "DuplicateFaceError",
@@ -146,6 +148,7 @@ __all__ = [
     "cotangent_laplacian_intrinsic",
     "disk_islands",
     "disk_map",
+    "distributed_disk_map",
     "distortion",
     "distortion_numbers",
     "equirectangular",
@@ -185,6 +188,7 @@ _HOME = {
     "DiskIsland": "charts",
     "DiskMap": "disk",
     "DiskMapper": "disk",
+    "DistributedDiskMap": "distributed",
     "Distortion": "operators",
     "DistortionNumbers": "report",
     "DuplicateFaceError": "errors",
@@ -228,6 +232,7 @@ _HOME = {
     "disk_islands": "charts",
     "disk_map": "disk",
     "distortion": "operators",
+    "distributed_disk_map": "distributed",
     "distortion_numbers": "report",
     "equirectangular": "sphere",
     "face_areas": "operators",

@@ -25,6 +25,7 @@ __all__ = [
     "Closed",
     "CornerChoice",
     "DiskOptions",
+    "DistributedSolver",
     "FreeOptions",
     "Holes",
     "Laplacian",
@@ -161,6 +162,19 @@ class Backend(Choice):
     CHOLMOD = "cholmod"
     SUPERLU = "superlu"
     MULTIGRID = "multigrid"
+    PETSC = "petsc"
+
+
+class DistributedSolver(Choice):
+    """What solves the linear systems of the backend "petsc"."""
+
+    GAMG = "gamg"
+    HYPRE = "hypre"
+    MUMPS = "mumps"
+
+    @classmethod
+    def _joint(cls) -> str:
+        return ", "
 
 
 class Holes(Choice):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..mesh.blocks import by_blocks
 from ..options import Shape, Upright
 
-__all__ = ["straight_sides", "upright_turn", "upright_turns"]
+__all__ = ["straight_sides", "summed_rises", "turns_and_flats", "upright_turn", "upright_turns"]
 
 Real = NDArray[np.float64]
 Ints = NDArray[np.integer]
@@ -86,7 +86,11 @@ def _turns_and_flats(
 
     `chart` (m,), ascending, is that of each face, `size` (c,) its largest coordinate.
     """
-    total, rises = _rises(V, F, z, chart, size, AXES[upright])
+    return turns_and_flats(*summed_rises(V, F, z, chart, size, upright))
+
+
+def turns_and_flats(total: Real, rises: list[Complex]) -> tuple[Complex, NDArray[np.bool_]]:
+    """The same from what `summed_rises` gives."""
     up, beyond = (np.divide(rise, total, out=np.zeros_like(rise), where=total > 0.0) for rise in rises)
     flat = np.abs(up) < FLAT
     rise = np.where(flat, beyond, up)
@@ -96,15 +100,14 @@ def _turns_and_flats(
     return turn, flat | ~steep
 
 
-def _rises(
-    V: Real, F: Ints, z: Complex, chart: Ints, size: Real, axes: tuple[tuple[int, float], ...]
-) -> tuple[Real, list[Complex]]:
+def summed_rises(V: Real, F: Ints, z: Complex, chart: Ints, size: Real, upright: Upright) -> tuple[Real, list[Complex]]:
     """Areas of charts (c,), up to a factor, and how they rise along axes, as seen in the plane, (c,) each: the slope's
     sine over the area.
 
     The sine is the surface's, only the direction the image's: in a face that the map squeezes to nothing the gradient
     in the plane is as long as one likes.
     """
+    axes = AXES[upright]
     columns = np.ascontiguousarray(V.T)
     unit = np.where(size > 0.0, size, 1.0)  # squares of what is very large or very small would be lost
 

@@ -10,6 +10,7 @@ from ..options import (
     Backend,
     Balance,
     Closed,
+    DistributedSolver,
     Holes,
     Laplacian,
     Method,
@@ -75,6 +76,9 @@ def disk(
     place: PlaceInSquare = Place.FIT,
     margin: SquareMargin = None,
     backend: BackendName = Backend.AUTO,
+    solver: Annotated[
+        DistributedSolver, typer.Option(help="Of --backend petsc, which maps one surface spread over MPI processes.")
+    ] = DistributedSolver.GAMG,
     split: Split = False,
     format: MeshFormat = None,
     json_file: JsonFile = None,
@@ -86,7 +90,42 @@ def disk(
 
     One surface fills the unit square of texture space: u, v = 0.5 + 0.5 (x, y). Several charts (pieces, or parts
     between seams) are packed into it.
+
+    With mpiexec -n N and --backend petsc, each process reads, maps and writes its rows of one surface in an NPZ
+    archive.
     """
+    if backend is Backend.PETSC:
+        from .giant import map_giant  # MPI starts when it is imported
+
+        map_giant(
+            source,
+            target,
+            json_file,
+            quiet,
+            {
+                "--pin-mode constraint": pin_mode is PinMode.CONSTRAINT,
+                "--balance area": balance is not Balance.MIDDLE,
+                "--seams": seams is not None,
+                "--closed cut": closed is not Closed.REFUSE,
+                "--nonmanifold cut": nonmanifold is not NonManifold.REFUSE,
+                "--orientation mend": orientation is not Orientation.REFUSE,
+                "--place": place is not Place.FIT,
+                "--margin": margin is not None,
+                "--split": split,
+                "--format": format is not None,
+                "--plot": plot is not None,
+            },
+            method=method,
+            objective=objective,
+            pins=three_numbers(pins),
+            center=center,
+            boundary_vertex=boundary_vertex,
+            upright="none" if pins is not None or boundary_vertex is not None else upright,
+            laplacian=laplacian,
+            repair=repair,
+            solver=solver,
+        )
+        return
     unwrap_file(
         Shape.DISK,
         source=source,

@@ -7,6 +7,9 @@ the minimum with the centre's image free leaves it within the star of the centra
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,7 +22,7 @@ from .gauge import TurnGauge
 from .harmonic_measure import CentredMeasure
 from .newton import NewtonResult, minimise_boundary_energy
 
-__all__ = ["release_centre"]
+__all__ = ["release_centre", "released_within"]
 
 WORTH_WHILE = 0.1  # part of the energy that there must be to gain
 
@@ -45,7 +48,21 @@ def release_centre(
     """
     if measure.centre is None:
         return found
-    reach = _star_radius(surface, problem, measure.centre, found.energy)
+    return released_within(
+        partial(_star_radius, surface, problem, measure.centre), problem, measure, found, options, progress
+    )
+
+
+def released_within(
+    reach_at: Callable[[BoundaryEnergy], float],
+    problem: DirichletProblem,
+    measure: CentredMeasure,
+    found: NewtonResult,
+    options: DiskOptions,
+    progress: Progress,
+) -> NewtonResult:
+    """The same where the cell has the size `reach_at` in the map with an energy."""
+    reach = reach_at(found.energy)
     worth = WORTH_WHILE * found.energy.value
     slope = found.energy.moebius_moves.T @ found.energy.gradient
     if 0.5 * float(np.linalg.norm(slope)) * reach < worth:  # a step within the star gains less, whatever the Hessian

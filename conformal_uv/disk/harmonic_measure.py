@@ -21,7 +21,7 @@ from ..operators.areas import lumped_areas
 from ..operators.dirichlet import DirichletProblem
 from ..operators.edge_laplacian import edge_laplacian
 
-__all__ = ["CentredMeasure", "angles_of_measure", "centred_measure"]
+__all__ = ["CentredMeasure", "angles_of_measure", "balanced_measure", "centred_measure", "peak_weights"]
 
 EFFORT = 4  # flips a face of the copy with chords split; thousands of chords side by side may ask for any number
 MOST_OF_ONE = 0.49  # of the harmonic measure
@@ -66,7 +66,7 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
         measure, middle = peak.measures(problem)
         theta = angles_of_measure(measure, lengths)
         if (np.diff(theta, append=2.0 * np.pi) > 0.0).all():
-            return _balanced(CentredMeasure(peak.vertex, middle, theta))
+            return balanced_measure(CentredMeasure(peak.vertex, middle, theta))
     elif surface.n == 3:
         return CentredMeasure(None, np.full(3, 1.0 / 3.0), 2.0 * np.pi / 3.0 * np.arange(3.0))
     V, corners = split_edges(surface.V, surface.corners, surface.edges, chord_edges(surface, loop))
@@ -77,10 +77,12 @@ def centred_measure(surface: Surface, problem: DirichletProblem) -> CentredMeasu
     fine, fine_middle = seen.measures(refined)
     if measure is None or middle is None or (measure < 0.0).any() or (middle < 0.0).any():
         middle = fine_middle
-    return _balanced(CentredMeasure(None if peak is None else peak.vertex, middle, angles_of_measure(fine, lengths)))
+    return balanced_measure(
+        CentredMeasure(None if peak is None else peak.vertex, middle, angles_of_measure(fine, lengths))
+    )
 
 
-def _balanced(found: CentredMeasure) -> CentredMeasure:
+def balanced_measure(found: CentredMeasure) -> CentredMeasure:
     """The same, without a centre where one boundary vertex has about half of its measure.
 
     No map of the disk brings the image of such a vertex to 0. The arcs then serve as measure.
@@ -119,11 +121,16 @@ def torsion_peak(
     torsion = problem.solve(areas)
     most = float(torsion.max())
     vertex = distinguished(V, corners, problem.interior[torsion >= most - ALIKE * np.abs(torsion).max()])
-    weights = areas * np.maximum(torsion - NEAR_PEAK * most, 0.0)
+    weights = peak_weights(areas, torsion, most)
     near = np.flatnonzero(weights)
     if not len(near) or not most > 0.0:
         return TorsionPeak(vertex, np.array([vertex]), np.ones(1))
     return TorsionPeak(vertex, problem.interior[near], weights[near] / weights[near].sum())
+
+
+def peak_weights(areas: NDArray[np.float64], torsion: NDArray[np.float64], most: float) -> NDArray[np.float64]:
+    """How much of the surface interior vertices (ni,) stand for, and how near they come to the peak of the torsion."""
+    return areas * np.maximum(torsion - NEAR_PEAK * most, 0.0)
 
 
 def angles_of_measure(measure: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:

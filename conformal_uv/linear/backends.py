@@ -23,7 +23,7 @@ from .multigrid import Multigrid, require_pyamg
 
 __all__ = ["BACKENDS", "choose_backend", "linear_solver"]
 
-BACKENDS = tuple(kind.value for kind in Backend if kind is not Backend.AUTO)
+BACKENDS = tuple(kind.value for kind in Backend if kind not in (Backend.AUTO, Backend.PETSC))
 ENVIRONMENT_VARIABLE = "CONFORMAL_UV_BACKEND"
 log = logging.getLogger(__name__)
 
@@ -37,12 +37,17 @@ def choose_backend(backend: str = "auto") -> str:
     Raises
     ------
     OptionError
-        An unknown name.
+        An unknown name, or "petsc", which is no solver of one process.
     MissingDependencyError
         "cholmod" without cvxopt, "multigrid" without pyamg.
     """
     name = _named(backend)
     available = importlib.util.find_spec("cvxopt") is not None
+    if name == Backend.PETSC:
+        raise OptionError(
+            'The backend "petsc" maps one surface that is spread over MPI processes, to the disk: use '
+            "distributed_disk_map(), or mpiexec -n 2 conformal-uv disk IN OUT --backend petsc."
+        )
     if name == "auto":
         return "cholmod" if available else "superlu"
     if name not in BACKENDS:

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import DegenerateFaceError, MeshError, NonFiniteError, UnreferencedVertexError, listed
+from ..errors import MeshError
+from . import refusals
 
-__all__ = ["check_referenced", "face_array", "on_one_line", "scaled", "scaled_each", "squared_units", "vertex_array"]
+__all__ = [
+    "check_referenced",
+    "face_array",
+    "face_indices",
+    "on_one_line",
+    "scaled",
+    "scaled_each",
+    "squared_units",
+    "vertex_array",
+    "vertex_numbers",
+]
 
 MOST_VERTICES = 2**31 - 1
 FEW = 100  # vertices, which nearly always tell already that they are on no line
@@ -23,6 +36,23 @@ def vertex_array(V: ArrayLike) -> NDArray[np.float64]:
     NonFiniteError
         A coordinate is NaN or infinite.
     """
+    array = vertex_numbers(V)
+    with np.errstate(invalid="ignore", over="ignore"):
+        total = array.sum()  # one pass; the indices are looked for only when there are some
+    if not np.isfinite(total):
+        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
+        if len(bad):
+            raise refusals.non_finite(bad, len(array))
+    return array
+
+
+def vertex_numbers(V: ArrayLike, rows: int | None = None) -> NDArray[np.float64]:
+    """The same, finite or not; where they are some rows of more, errors tell of `rows`.
+
+    Raises
+    ------
+    MeshError
+    """
     try:
         raw = np.asarray(V)
         if raw.dtype.kind not in "biuf" and raw.size:
@@ -31,19 +61,9 @@ def vertex_array(V: ArrayLike) -> NDArray[np.float64]:
     except (TypeError, ValueError, OverflowError) as error:
         raise MeshError(f"V is not an array of numbers ({error}); pass vertices as (n, 3) floats.") from error
     if array.ndim != 2 or array.shape[1] not in (2, 3):
-        raise MeshError(f"V has shape {array.shape}; pass vertices as (n, 3) floats.")
+        raise MeshError(f"V has shape {_whole_shape(array, rows)}; pass vertices as (n, 3) floats.")
     if array.shape[1] == 2:
         array = np.column_stack((array, np.zeros(len(array))))
-    with np.errstate(invalid="ignore", over="ignore"):
-        total = array.sum()  # one pass; the indices are looked for only when there are some
-    if not np.isfinite(total):
-        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
-        if len(bad):
-            raise NonFiniteError(
-                f"{len(bad)} of {len(array)} vertices have a NaN or infinite coordinate: "
-                f"{listed(bad)}. Remove them with their faces, or give them positions.",
-                bad,
-            )
     return array
 
 
@@ -64,26 +84,38 @@ def face_array(F: ArrayLike, n: int) -> NDArray[np.int32]:
     DegenerateFaceError
         A face repeats a vertex.
     """
-    faces = _integers(F)
-    if faces.ndim != 2 or faces.shape[1] != 3:
-        hint = " Polygons go through unwrap()." if faces.ndim == 2 and faces.shape[1] > 3 else ""
-        raise MeshError(f"F has shape {faces.shape}; pass triangles as (m, 3) vertex indices.{hint}")
+    faces = face_indices(F)
     if not len(faces) or not n:
-        raise MeshError(f"The mesh is empty ({n} vertices, {len(faces)} faces); there is nothing to map.")
+        raise refusals.empty(n, len(faces))
     if n > MOST_VERTICES or len(faces) > MOST_VERTICES // 3:
         raise MeshError(f"{n} vertices and {len(faces)} faces are more than 32-bit indices can number.")
     if faces.min() < 0 or faces.max() >= n:
         bad = np.flatnonzero(((faces < 0) | (faces >= n)).any(axis=1))
-        hint = " Indices start at 0." if faces.min() >= 1 and faces.max() == n else ""
-        raise MeshError(f"{len(bad)} faces name vertices outside 0 .. {n - 1}: faces {listed(bad)}.{hint}", bad)
+        raise refusals.outside(bad, n, int(faces.min()), int(faces.max()))
     corners = np.empty((3, len(faces)), dtype=np.int32)
     corners[...] = faces.T
     a, b, c = corners
     repeated = (a == b) | (b == c) | (c == a)
     if repeated.any():
-        bad = np.flatnonzero(repeated)
-        raise DegenerateFaceError(f"{len(bad)} faces repeat a vertex: faces {listed(bad)}. Remove them.", bad)
+        raise refusals.repeated(np.flatnonzero(repeated))
     return corners
+
+
+def face_indices(F: ArrayLike, rows: int | None = None) -> NDArray[np.integer]:
+    """Triangles as integers (m, 3), whatever they are; `rows` as in `vertex_numbers`.
+
+    Raises
+    ------
+    MeshError
+    """
+    faces = _integers(F)
+    if faces.ndim != 2 or faces.shape[1] != 3:
+        raise refusals.faces_shape(_whole_shape(faces, rows))
+    return faces
+
+
+def _whole_shape(array: NDArray[Any], rows: int | None) -> tuple[int, ...]:
+    return array.shape if rows is None else (rows, *array.shape[1:])
 
 
 def _integers(F: ArrayLike) -> NDArray[np.integer]:
@@ -104,10 +136,7 @@ def check_referenced(corners: NDArray[np.int32], n: int) -> None:
     used = np.zeros(n, dtype=bool)
     used[corners] = True
     if not used.all():
-        bad = np.flatnonzero(~used)
-        raise UnreferencedVertexError(
-            f"{len(bad)} of {n} vertices belong to no face: vertices {listed(bad)}. Remove them.", bad
-        )
+        raise refusals.unreferenced(np.flatnonzero(~used), n)
 
 
 def scaled(V: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["distinguished"]
+__all__ = ["distinguished", "mixed"]
 
 DIGITS = 1e7  # parts of the surface's radius that distances are told apart to
 FARTHEST = 1e3  # radii
@@ -59,15 +59,15 @@ def _most(vertices: NDArray[np.int64], values: NDArray[np.uint64]) -> NDArray[np
 def _refined(color: NDArray[np.uint64], corners: NDArray[np.int32]) -> NDArray[np.uint64]:
     """Each vertex's colour mixed with those of the faces around it; sums forget the order."""
     with np.errstate(over="ignore"):
-        mixed = _mixed(color)
-        face = _mixed(mixed[corners[0]] + mixed[corners[1]] + mixed[corners[2]])
-        total = mixed.copy()
+        before = mixed(color)
+        face = mixed(before[corners[0]] + before[corners[1]] + before[corners[2]])
+        total = before.copy()
         for corner in corners:
             np.add.at(total, corner, face)
-        return _mixed(total)
+        return mixed(total)
 
 
-def _mixed(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
+def mixed(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
     """A bijection that scatters (Steele, Lea, Flood 2014)."""
     with np.errstate(over="ignore"):
         x = x + MIX

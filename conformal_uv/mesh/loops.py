@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from .loop_order import loop_order
 
-__all__ = ["boundary_loops", "joined_loops"]
+__all__ = ["boundary_loops", "joined_loops", "traced_loops"]
 
 Ints = NDArray[np.int64]
 
@@ -36,11 +36,14 @@ def joined_loops(corners: NDArray[np.int32], twin: NDArray[np.int32]) -> tuple[I
     if not len(h):
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     h = h[np.argsort(h % m * 3 + h // m)]  # reading order
-    tail = corners[h // m, h % m].astype(np.int64)
-    head = corners[(h // m + 1) % 3, h % m].astype(np.int64)
+    return traced_loops(corners[h // m, h % m].astype(np.int64), corners[(h // m + 1) % 3, h % m].astype(np.int64))
+
+
+def traced_loops(tail: Ints, head: Ints) -> tuple[Ints, Ints]:
+    """The same from the boundary half-edges in reading order, each from `tail` to `head`."""
     place = np.argsort(tail)
-    previous = np.empty(len(h), dtype=np.int64)
-    previous[place[np.searchsorted(tail, head, sorter=place)]] = np.arange(len(h))
+    previous = np.empty(len(tail), dtype=np.int64)
+    previous[place[np.searchsorted(tail, head, sorter=place)]] = np.arange(len(tail))
 
     loop, steps = loop_order(previous)
     order = np.lexsort((steps, loop))

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-from ..errors import DegenerateFaceError, DuplicateFaceError, NonManifoldError, OrientationError, listed
+from . import refusals
 from .fans import corner_links, pinched_vertices
 from .geometry import TriangleGeometry
 from .halfedges import HalfEdges, joined_pairs
@@ -33,18 +33,10 @@ def check_edges(corners: NDArray[np.int32], edges: HalfEdges) -> None:
         _, index, count = np.unique(np.sort(corners, axis=0), axis=1, return_inverse=True, return_counts=True)
         twice = np.flatnonzero(count[index.reshape(-1)] > 1)
         if len(twice):
-            raise DuplicateFaceError(
-                f"{len(twice)} faces have the same three vertices as another: faces {listed(twice)}. Keep one of each.",
-                twice,
-            )
+            raise refusals.duplicates(twice)
     if len(crowded):
-        places = ", ".join(f"({edges.lo[e]}, {edges.hi[e]})" for e in crowded[:8])
         faces = np.flatnonzero((edges.twin == -2).reshape(3, m).any(axis=0))
-        raise NonManifoldError(
-            f"{len(crowded)} edges have three or more faces: edges {places}{' ...' if len(crowded) > 8 else ''} "
-            f"of faces {listed(faces)}. Remove the extra faces, or cut the surface there.",
-            faces,
-        )
+        raise refusals.crowded_edges(edges.lo[crowded], edges.hi[crowded], faces)
 
 
 def check_orientation(corners: NDArray[np.int32], edges: HalfEdges) -> None:
@@ -54,18 +46,8 @@ def check_orientation(corners: NDArray[np.int32], edges: HalfEdges) -> None:
         return
     sign = face_signs(vertex, np.arange(3 * m) % m, edges.twin, m)
     if (sign == 0).any():
-        one_sided = np.flatnonzero(sign == 0)
-        raise OrientationError(
-            f"The surface has only one side, like a Moebius band ({len(one_sided)} faces: "
-            f"{listed(one_sided)}); it has no conformal map to the disk. Cut it across the band.",
-            one_sided,
-        )
-    against = np.flatnonzero(sign < 0)
-    raise OrientationError(
-        f"{len(against)} faces are wound against their neighbours: faces {listed(against)}. "
-        "Reverse their vertex order.",
-        against,
-    )
+        raise refusals.one_sided(np.flatnonzero(sign == 0))
+    raise refusals.disagreeing(np.flatnonzero(sign < 0))
 
 
 def check_fans(corners: NDArray[np.int32], edges: HalfEdges, n: int) -> None:
@@ -75,11 +57,7 @@ def check_fans(corners: NDArray[np.int32], edges: HalfEdges, n: int) -> None:
     vertex = corners.reshape(-1).astype(np.int64)
     bad = pinched_vertices(vertex, *corner_links(vertex, following, *joined_pairs(edges.twin)), n)
     if len(bad):
-        raise NonManifoldError(
-            f"{len(bad)} vertices join pieces that touch only there: vertices {listed(bad)}. "
-            "Split each into one vertex for every fan of faces.",
-            bad,
-        )
+        raise refusals.pinched(bad)
 
 
 def is_face_connected(corners: NDArray[np.int32], edges: HalfEdges) -> bool:
@@ -104,8 +82,4 @@ def check_areas(geometry: TriangleGeometry) -> None:
     """Raise DegenerateFaceError where a face has no area."""
     bad = geometry.degenerate
     if len(bad):
-        raise DegenerateFaceError(
-            f"{len(bad)} faces have no area: faces {listed(bad)}. "
-            "Merge their coincident vertices or collapse their shortest edges.",
-            bad,
-        )
+        raise refusals.areas_lost(bad)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..concise import Concise
-from ..errors import DegenerateFaceError, DisconnectedError, NonManifoldError, TopologyError, listed
+from . import refusals
 from .arrays import check_referenced, face_array, on_one_line, scaled, vertex_array
 from .geometry import TriangleGeometry, triangle_geometry
 from .halfedges import HalfEdges, half_edges
@@ -178,38 +178,19 @@ class Surface(Concise):
             Saying what the surface is instead.
         """
         if self.pieces > 1:
-            raise DisconnectedError(
-                f"The mesh has {self.pieces} pieces that do not touch; a disk is one. "
-                "Map each piece by itself, or use unwrap().",
-            )
+            raise refusals.several_pieces(self.pieces)
         if not self.loops:
-            advice = "Use sphere_map()." if self.genus == 0 else "Cut it open along its handles first."
-            raise TopologyError(f"The surface is closed, of genus {self.genus}: it has no boundary. {advice}")
+            raise refusals.closed(self.genus)
         if len(self.loops) > 1:
-            told = sorted(((len(loop), self.loop_length(loop)) for loop in self.loops), reverse=True)
-            lengths = ", ".join(f"{count} edges" for count, _ in told[:8])
-            raise TopologyError(
-                f"The surface has {len(self.loops)} boundary loops ({lengths}"
-                f"{', ...' if len(told) > 8 else ''}) and genus {self.genus}; a disk has one loop. "
-                "Fill the holes, or use unwrap(), which can fill them for the solution.",
-                [loop[0] for loop in self.loops],
-            )
+            raise refusals.several_loops(self.loops, [self.loop_length(loop) for loop in self.loops], self.genus)
         if self.genus:
-            raise TopologyError(
-                f"The surface has one boundary loop but genus {self.genus}; a disk has no handles. "
-                "Cut it open along its handles first.",
-            )
+            raise refusals.handles(self.genus)
         return self.loops[0]
 
     def require_extent(self) -> None:
         """Raise DegenerateFaceError where all vertices lie on one line: no angle is there to be kept."""
         if on_one_line(self.V):
-            faces = np.arange(self.m)
-            raise DegenerateFaceError(
-                f"{self.m} faces have no area: faces {listed(faces)}. All vertices lie on one line or in one point; "
-                "give them other positions, or remove the piece.",
-                faces,
-            )
+            raise refusals.no_extent(self.m)
 
     def loop_length(self, loop: NDArray[np.int64]) -> float:
         """Length of a closed polygon of vertices, in the scaled units."""
@@ -221,8 +202,4 @@ def _check_boundary(corners: NDArray[np.int32], edges: HalfEdges, n: int) -> Non
     leaving = np.bincount(corners.reshape(-1)[edges.twin == -1], minlength=n)
     bad = np.flatnonzero(leaving > 1)
     if len(bad):
-        raise NonManifoldError(
-            f"{len(bad)} boundary vertices join fans of faces that touch only there: vertices {listed(bad)}. "
-            "Split each into one vertex for every fan.",
-            bad,
-        )
+        raise refusals.pinched_boundary(bad)
