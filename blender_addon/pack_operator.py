@@ -4,6 +4,7 @@ import bpy
 
 from .edit_mode import follows_uv_selection
 from .operators import refusal
+from .options_layout import means_something
 from .properties import PACKING, PackOptions, PackProperties
 
 
@@ -59,7 +60,7 @@ class UV_OT_conformal_pack(PackProperties, bpy.types.Operator):
         layout.use_property_split = True
         layout.use_property_decorate = False
         for name in ("average_scale", *PACKING):
-            if name != "image_size" or self.margin_method == "PIXELS":
+            if means_something(name, self):
                 layout.prop(self, name)
 
 
