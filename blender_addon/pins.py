@@ -17,7 +17,7 @@ NO_CORNERS = (
 )
 HOW_TO_USE = {
     "DISK": "pinned UVs stay where they are; unpin them, or pin three on the boundary and turn on Use Pins",
-    "FREE": "pinned UVs stay where they are; unpin them, or map the island from its pins with Conformal Live Pins",
+    "FREE": "pinned UVs stay where they are; unpin them, or pin two or more and turn on Use Pins",
     "RECTANGLE": "pinned UVs stay where they are; unpin them, or pin four on the boundary and turn on Use Pins",
 }
 

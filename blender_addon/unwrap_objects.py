@@ -101,7 +101,7 @@ def unwrap_objects(
             _write(task, stored[id(task)])
         prints = {id(task): fingerprint(task.ob.data, task.layer) for task in done}
     results = [object_result(task, stored.get(id(task)), corner, prints.get(id(task), b"")) for task in tasks]
-    return UnwrapResult(results, time.perf_counter() - start, [], options)
+    return UnwrapResult(results, time.perf_counter() - start, options)
 
 
 def _write(task: Task, uv: np.ndarray) -> None:

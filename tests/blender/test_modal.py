@@ -92,7 +92,7 @@ def test_a_slide_cancelled_restores_every_bit(slide, mode, key):
     assert slide.press(key) == {"CANCELLED"}
     assert scenes.shadowed(stored()) == before
     assert_ended(slide, mode)
-    assert slide.told == ["Conformal Slide cancelled; nothing was changed"]
+    assert slide.told == ["Cancelled; nothing was changed"]
 
 
 def test_wheel_shift_and_typed_numbers(slide):
