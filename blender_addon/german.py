@@ -228,13 +228,6 @@ GERMAN = {
         "Aus: Inseln mit Löchern werden abgelehnt"
     ),
     "Cut them open along edges": "Entlang von Kanten aufschneiden",
-    "Disks: three pinned UVs on an island's boundary go to three equally spaced points of the circle.\n"
-    "Rectangles: four pinned UVs on the boundary are the corners; of a mesh without pins four selected vertices, "
-    "while no face is selected": (
-        "Scheiben: drei angeheftete UVs auf dem Rand einer Insel kommen auf drei gleich weit entfernte Kreispunkte.\n"
-        "Rechtecke: vier angeheftete UVs auf dem Rand sind die Ecken; ohne angeheftete vier ausgewählte Eckpunkte, "
-        "solange keine Fläche ausgewählt ist"
-    ),
     "Do not scale islands to fit the square, beyond which they may lie.\n"
     "Unwrapped islands have the size of their surface, a unit of length a unit of UV": (
         "Inseln nicht skalieren, um das Quadrat zu füllen, über das sie hinausreichen dürfen.\n"
@@ -245,6 +238,15 @@ GERMAN = {
     ),
     "Factor to the mean area that is red.\nIts inverse is blue": (
         "Faktor zum mittleren Flächeninhalt, der rot ist.\nSein Kehrwert ist blau"
+    ),
+    "Free: islands with two pinned UVs or more follow them. Disks: three on the boundary go to equally spaced points "
+    "of the circle.\n"
+    "Rectangles: four on the boundary are the corners; of a mesh without pins four selected vertices, while no face "
+    "is selected": (
+        "Frei: Inseln mit zwei oder mehr angehefteten UVs folgen ihnen. Scheiben: drei auf dem Rand kommen auf "
+        "gleich weit entfernte Kreispunkte.\n"
+        "Rechtecke: vier auf dem Rand sind die Ecken; ohne angeheftete vier ausgewählte Eckpunkte, während keine "
+        "Fläche ausgewählt ist"
     ),
     "Give islands sizes in the proportion of their surfaces.\nOff: they keep theirs to each other": (
         "Inseln Größen im Verhältnis ihrer Oberflächen geben.\nAus: sie behalten ihre zueinander"

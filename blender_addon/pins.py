@@ -34,6 +34,15 @@ def offered_pins(arrays: MeshArrays, chosen: NDArray[np.bool_], options: Options
     return pins if pins or not options.takes_selected_corners else _used(arrays, chosen, arrays.alone)
 
 
+def held_uvs(
+    arrays: MeshArrays, chosen: NDArray[np.bool_], scale: NDArray[np.float64]
+) -> dict[int, tuple[float, float]]:
+    """Pinned corners of the chosen faces (p,) and where they are, in a plane that `scale` (2,) makes the texture of."""
+    kept = np.repeat(chosen, np.diff(arrays.starts))[arrays.pin_corners]
+    places = arrays.pin_places[kept].astype(np.float64) / scale
+    return dict(zip(arrays.pin_corners[kept].tolist(), map(tuple, places.tolist()), strict=True))
+
+
 def took_pins(chart: Chart, offered: list[int] | None) -> bool:
     """Whether a mapped chart could use them."""
     if offered is None:

@@ -69,8 +69,13 @@ class Options(PackOptions):
 
     @property
     def takes_pins(self) -> bool:
-        """Whether pins mean something; a free boundary has none."""
+        """Whether pinned vertices go to places of the shape; where the boundary is free, they stay."""
         return self.use_pins and self.shape != Shape.FREE.name
+
+    @property
+    def holds_pins(self) -> bool:
+        """Whether islands are mapped with their pinned UVs where they are."""
+        return self.use_pins and self.shape == Shape.FREE.name
 
     @property
     def takes_active(self) -> bool:
@@ -86,7 +91,7 @@ class Options(PackOptions):
 DEFAULTS = Options()
 SHOWN = {  # names in the redo panel, by shape and then for all
     Shape.DISK.name: ("method", "center", "use_pins"),
-    Shape.FREE.name: ("refine",),
+    Shape.FREE.name: ("refine", "use_pins"),
     Shape.RECTANGLE.name: ("corner_choice", "use_pins"),
 }
 PACKING = tuple(field.name for field in fields(PackOptions))
@@ -187,9 +192,10 @@ class UnwrapProperties(PackProperties):
     )
     use_pins: BoolProperty(
         name="Use Pins",
-        description="Disks: three pinned UVs on an island's boundary go to three equally spaced points of the circle.\n"
-        "Rectangles: four pinned UVs on the boundary are the corners; of a mesh without pins four selected vertices, "
-        "while no face is selected",
+        description="Free: islands with two pinned UVs or more follow them. Disks: three on the boundary go to equally "
+        "spaced points of the circle.\n"
+        "Rectangles: four on the boundary are the corners; of a mesh without pins four selected vertices, while no "
+        "face is selected",
         default=DEFAULTS.use_pins,
     )
     corner_choice: EnumProperty(
