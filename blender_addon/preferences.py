@@ -26,12 +26,13 @@ def _start_again(preferences, context):
 
 def _property(name, **other):
     """The operator's own property, declared once, with something else about it."""
-    (declared,) = (vars(cls)["__annotations__"][name] for cls in UnwrapProperties.__mro__ if _declares(cls, name))
+    # Not of vars(cls), which has no annotations from Python 3.14 on until they are asked for.
+    (declared,) = (cls.__annotations__[name] for cls in UnwrapProperties.__mro__ if _declares(cls, name))
     return declared.function(**{**declared.keywords, "update": _start_again, **other})
 
 
 def _declares(cls, name):
-    return name in vars(cls).get("__annotations__", {})
+    return name in getattr(cls, "__annotations__", {})
 
 
 class ConformalUnwrapPreferences(bpy.types.AddonPreferences):

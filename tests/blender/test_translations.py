@@ -64,7 +64,7 @@ def texts_of_classes(addon) -> set[str]:
     for cls in classes(addon):
         found |= {getattr(cls, name, None) for name in ("bl_label", "bl_description", "bl_category")}
         for base in cls.__mro__:
-            for declared in vars(base).get("__annotations__", {}).values():
+            for declared in getattr(base, "__annotations__", {}).values():
                 found |= texts_of_property(getattr(declared, "keywords", {}))
     return {text for text in found if text}
 
