@@ -25,7 +25,7 @@ class ConformalSlideTool(bpy.types.WorkSpaceTool):
     bl_icon = str(ICONS / "conformal_slide")
     bl_keymap = (
         (UV_OT_conformal_slide.bl_idname, LEFT_PRESS, None),
-        (UV_OT_conformal_sphere_slide.bl_idname, LEFT_PRESS, None),  # where the first finds no disk
+        (UV_OT_conformal_sphere_slide.bl_idname, LEFT_PRESS, None),  # one of them finds what it slides
     )
 
 

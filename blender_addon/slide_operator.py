@@ -96,13 +96,14 @@ class UV_OT_conformal_slide(bpy.types.Operator):
 
     def invoke(self, context, event):
         from .disks import NONE_FOUND, NONE_SELECTED, chosen_disks, disk_under, find_disks
+        from .sphere_slide import find_spheres, laid_out
 
         if not in_uv_editor(context):
             return self.execute(context)
         disks = find_disks(context, target_objects(context))
         self._by_press = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
-        if not disks and self._by_press:
-            return {"PASS_THROUGH"}  # the tool slides spheres too
+        if not disks and self._by_press and laid_out(find_spheres(context, target_objects(context))):
+            return {"PASS_THROUGH"}  # the tool slides spheres too; Blender asks in either order
         self._area, self._region = context.area, window_region(context.area)
         at = uv_at(self._region, event)
         under = disk_under(disks, at)

@@ -52,6 +52,11 @@ def find_spheres(context: bpy.types.Context, objects: Iterable[bpy.types.Object]
     return found
 
 
+def laid_out(spheres: list[Sphere]) -> list[Sphere]:
+    """Those whose active UV map is a layout of the sphere."""
+    return [sphere for sphere in spheres if sphere.stored.octahedron is not None]
+
+
 class LiveSpheres:
     """Shape keys and UVs of spheres while a tool runs; all objects are in Object Mode."""
 

@@ -78,19 +78,22 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
 
     def invoke(self, context, event):
         from .disks import NONE_FOUND as NO_DISK
-        from .sphere_slide import NO_LAYOUT, NONE_FOUND, LiveSpheres, SphereSlide, find_spheres
+        from .disks import find_disks
+        from .sphere_slide import NO_LAYOUT, NONE_FOUND, LiveSpheres, SphereSlide, find_spheres, laid_out
 
         if not in_uv_editor(context):
             return self.execute(context)
         self._spheres = find_spheres(context, target_objects(context))
         self._by_press = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
-        laid_out = [sphere for sphere in self._spheres if sphere.stored.octahedron is not None]
-        if not laid_out:
+        flat = laid_out(self._spheres)
+        if not flat:
+            if self._by_press and find_disks(context, target_objects(context)):
+                return {"PASS_THROUGH"}  # the tool slides disks too; Blender asks in either order
             why = told(NO_LAYOUT if self._spheres else NONE_FOUND)
             self.report({"ERROR"}, f"{told(NO_DISK)}; {why}" if self._by_press else why)
             return {"CANCELLED"}
         self._area, self._region = context.area, window_region(context.area)
-        self._slide, self._last = SphereSlide(laid_out[0].stored.octahedron), None
+        self._slide, self._last = SphereSlide(flat[0].stored.octahedron), None
         self._live = LiveSpheres(context, self._spheres)
         self._show(context)
         context.window_manager.modal_handler_add(self)
