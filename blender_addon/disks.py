@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from conformal_uv import DiskIsland, disk_islands
 
 from .uv_objects import UVObject, folds_told, uv_objects
+from .words import counted
 
 NONE_FOUND = "no island of the active UV map is a disk, its boundary on a circle; unwrap with the shape Disk first"
 NONE_SELECTED = "no disk is selected; select its faces, or put the cursor over it"
@@ -76,10 +77,9 @@ def by_object(disks: Iterable[Disk]) -> Iterator[tuple[bpy.types.Object, list[Di
     yield from groups.items()
 
 
-def told(disks: list[Disk], values: dict[bpy.types.Object, NDArray[np.float32]]) -> str:
+def slid(disks: list[Disk], values: dict[bpy.types.Object, NDArray[np.float32]]) -> str:
     """What was done, and whether faces folded that had not."""
-    count = len(disks)
-    done = f"Slid {count} disk{'' if count == 1 else 's'}"
+    done = counted(len(disks), "Slid {count} disk", "Slid {count} disks")
     folded = 0
     for ob, group in by_object(disks):
         folded += group[0].of.newly_folded(values[ob], np.concatenate([disk.island.faces for disk in group]))

@@ -3,20 +3,26 @@
 import bpy
 from mathutils import Vector
 
+from . import last_result
 from .libraries import missing_library
+from .words import counted, told
 
 SHAPE_KEY = "Conformal Flat"
 
 
 class OBJECT_OT_conformal_flatten(bpy.types.Operator):
-    """Lay each selected mesh flat as its active UV map does, for patterns, prints and Geometry Nodes"""
+    """Meshes laid flat by their active UV maps"""
 
     bl_idname = "object.conformal_flatten"
     bl_label = "Conformal Flatten"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_description = (
+        "Lay each selected mesh flat as its active UV map does.\nFor patterns, cutting, prints and Geometry Nodes"
+    )
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     result: bpy.props.EnumProperty(
         name="Result",
+        description="What is made.\nA shape key needs a map that is torn nowhere",
         items=(
             ("OBJECT", "New Object", "A flat mesh beside the object, torn along its seams"),
             ("SHAPE_KEY", "Shape Key", "Slide between the surface and its flat form; for maps that are torn nowhere"),
@@ -25,6 +31,7 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
     )
     size: bpy.props.EnumProperty(
         name="Size",
+        description="How large the flat mesh is.\nAs the Surface for patterns of true size",
         items=(
             ("SURFACE", "As the Surface", "Each island has the area of its surface, the object's scale included"),
             ("UV", "As the UVs", "Positions are the UVs"),
@@ -33,7 +40,7 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
     )
     gap: bpy.props.FloatProperty(
         name="Gap",
-        description="Between islands that have the size of the surface",
+        description="Space between islands.\nWhere they have the size of the surface",
         min=0.0,
         default=0.02,
         unit="LENGTH",
@@ -41,9 +48,9 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        why = "Go to Object Mode" if context.mode != "OBJECT" else missing_library()
+        why = told("Go to Object Mode") if context.mode != "OBJECT" else missing_library()
         if not why and not any(ob.type == "MESH" for ob in context.selected_editable_objects):
-            why = "Select a mesh object"
+            why = told("Select a mesh object")
         if why:
             cls.poll_message_set(why)
         return not why
@@ -56,7 +63,10 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
             if why:
                 refusals.append(f"{ob.name}: {why}")
         done = len(objects) - len(refusals)
-        message = "; ".join([f"Flattened {done} of {len(objects)} meshes", *refusals])
+        text = counted(
+            len(objects), "Flattened {done} of {count} mesh", "Flattened {done} of {count} meshes", done=done
+        )
+        message = "; ".join([text, *refusals])
         if not done:
             self.report({"ERROR"}, message)
             return {"CANCELLED"}
@@ -70,12 +80,12 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
 
     def _refusal(self, ob):
         if not len(ob.data.polygons):
-            return "the mesh has no faces"
+            return told("the mesh has no faces")
         if ob.data.uv_layers.active is None:
-            return "the mesh has no UV map; unwrap it first"
+            return told("the mesh has no UV map; unwrap it first")
         scale = [abs(factor) for factor in ob.matrix_world.to_scale()]
         if self.result == "OBJECT" and self.size == "SURFACE" and max(scale) > 1.001 * min(scale):
-            return "its scale is not uniform; apply it first"
+            return told("its scale is not uniform; apply it first")
         return ""
 
     def _flatten(self, context, ob, made):
@@ -97,12 +107,17 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
             made.append(self._new_object(context, ob, flat_mesh(mesh, flat.mesh.V, flat.mesh.corners, flat.vertex)))
             return ""
         if len(flat.torn):
-            return f"the UV map is torn at {len(flat.torn)} vertices; make a new object"
+            return counted(
+                len(flat.torn),
+                "the UV map is torn at {count} vertex; make a new object",
+                "the UV map is torn at {count} vertices; make a new object",
+            )
         positions = V.copy()
         middle = 0.5 * (flat.mesh.V.min(axis=0) + flat.mesh.V.max(axis=0))
         used = V[flat.vertex]
         positions[flat.vertex] = flat.mesh.V - middle + 0.5 * (used.min(axis=0) + used.max(axis=0))
-        write_shape_key(ob, SHAPE_KEY, positions)
+        with last_result.own_change(context):
+            write_shape_key(ob, SHAPE_KEY, positions)
         return ""
 
     def _new_object(self, context, ob, mesh):

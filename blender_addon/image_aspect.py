@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .properties import Options
 
 ROUND = (1.0, 1.0)
 
@@ -15,6 +19,11 @@ def aspect_scale(ob: bpy.types.Object) -> tuple[float, float]:
     width, height = image.size
     least = min(width, height)
     return least / width, least / height
+
+
+def image_scale(ob: bpy.types.Object, options: Options) -> NDArray[np.float64]:
+    """The same, (2,), where the options ask for it."""
+    return np.array(aspect_scale(ob) if options.correct_aspect else ROUND)
 
 
 def _image(ob: bpy.types.Object) -> bpy.types.Image | None:

@@ -42,11 +42,14 @@ class Surface:
         Faces to unwrap.
     active : int or None
         Vertex for the centre.
+    pinned_uv : dict of int to (float, float)
+        Corners that stay where they are.
     """
 
     arrays: MeshArrays
     chosen: np.ndarray
     active: int | None
+    pinned_uv: dict[int, tuple[float, float]] = field(default_factory=dict)
     _digest: bytes = field(init=False, default=b"")
 
     def key(self, options: Options) -> Key:
@@ -137,6 +140,7 @@ def _call(surface: Surface, options: Options) -> dict[str, Any]:
         call["balance"] = Balance.AREA if options.center == "AREA" else Balance.MIDDLE
     elif shape is Shape.FREE:
         call["refine"] = options.refine
+        call["pinned_uv"] = surface.pinned_uv
     else:
         call["corner_choice"] = CornerChoice[options.corner_choice]
     return call

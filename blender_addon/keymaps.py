@@ -5,10 +5,14 @@ import bpy
 OFFERED = (  # keymap, its space, operator, its properties, key, modifiers
     ("UV Editor", "EMPTY", "uv.conformal_unwrap", {}, "U", {"ctrl": True, "shift": True}),
     ("UV Editor", "EMPTY", "uv.conformal_unwrap_options", {}, "U", {"ctrl": True, "alt": True}),
+    *(
+        ("UV Editor", "EMPTY", operator, {}, "NONE", {})  # for the user to choose a key
+        for operator in ("uv.conformal_slide", "uv.conformal_live", "uv.conformal_sphere_slide", "uv.conformal_pack")
+    ),
     ("Mesh", "EMPTY", "uv.conformal_unwrap", {}, "U", {"ctrl": True, "shift": True}),
     ("Mesh", "EMPTY", "uv.conformal_unwrap_options", {}, "U", {"ctrl": True, "alt": True}),
 )
-PREFIXES = ("uv.conformal_", "object.conformal_")  # of the add-on's operators
+PREFIXES = ("uv.conformal_", "object.conformal_", "view3d.conformal_")  # of the add-on's operators
 
 _made = []
 

@@ -7,6 +7,7 @@ import bpy
 from .edit_mode import target_objects
 from .libraries import missing_library
 from .mouse import in_uv_editor, passes, pixels_per_uv, redraw, uv_at, window_region
+from .words import shown, told
 
 REACH = 20.0  # pixels, at the scale of the interface
 PRECISE = 0.1  # of the mouse's way while Shift is held
@@ -16,22 +17,31 @@ HELP = "Drag a pin or a selected boundary UV   Shift: precise   Enter: confirm  
 def refusal(context):
     """Why there is nothing to drag, empty where there may be something."""
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Go to Edit Mode of a mesh"
+        return told("Go to Object Mode or to Edit Mode of a mesh")
     if not any(ob.data.uv_layers.active for ob in target_objects(context)):
-        return "Select a mesh object with a UV map"
+        return told("Select a mesh object with a UV map")
     return missing_library()
 
 
 class UV_OT_conformal_live(bpy.types.Operator):
-    """Drag pinned UVs, and the island follows at once, angles kept.
-    Pins stay where they are; three on a disk's boundary turn and slide the disk. Without a drag: unwrap from pins"""
+    """Pinned UVs dragged, the island following at once, angles kept"""
 
     bl_idname = "uv.conformal_live"
     bl_label = "Conformal Live Pins"
+    bl_description = (
+        "Drag pinned UVs, and the island follows at once, keeping angles; without a drag, map islands from their "
+        "pins.\n"
+        "Two pins or more stay where they are; three on a disk's boundary turn and slide the disk"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     place: bpy.props.FloatVectorProperty(
-        name="Place", description="Where the pin goes", size=2, precision=4, step=1, options={"SKIP_SAVE"}
+        name="Place",
+        description="Where the pin goes.\nIts island follows",
+        size=2,
+        precision=4,
+        step=1,
+        options={"SKIP_SAVE"},
     )
     object_name: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
     corner: bpy.props.IntProperty(
@@ -74,7 +84,7 @@ class UV_OT_conformal_live(bpy.types.Operator):
             raise
         if not done:
             live.restore()
-            self.report({"ERROR"}, NO_PINS if self.corner < 0 else "there is no such UV to drag")
+            self.report({"ERROR"}, told(NO_PINS if self.corner < 0 else "there is no such UV to drag"))
             return {"CANCELLED"}
         for owner in owners:
             live.show(owner.read.ob)
@@ -83,7 +93,7 @@ class UV_OT_conformal_live(bpy.types.Operator):
         return {"FINISHED"}
 
     def invoke(self, context, event):
-        from .live_pins import NO_HANDLE, PinnedObject
+        from .live_pins import NO_HANDLE, NO_HANDLE_HERE, PinnedObject
         from .uv_objects import uv_objects
 
         if not in_uv_editor(context):
@@ -93,7 +103,7 @@ class UV_OT_conformal_live(bpy.types.Operator):
         self._by_press = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
         handle = self._handle_under(context, event)
         if not any(len(owner.handles) for owner in self._owners) or (self._by_press and handle is None):
-            self.report({"INFO"}, NO_HANDLE if handle is None and not self._by_press else f"{NO_HANDLE} here")
+            self.report({"INFO"}, told(NO_HANDLE_HERE if self._by_press else NO_HANDLE))
             return {"CANCELLED"}
         self._drags, self._drag, self._moved = [], None, []
         self._start(context)
@@ -109,7 +119,7 @@ class UV_OT_conformal_live(bpy.types.Operator):
                 self._move(context, event)
         elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             self.cancel(context)
-            self.report({"INFO"}, "Conformal Live Pins cancelled; nothing was changed")
+            self.report({"INFO"}, told("Cancelled; nothing was changed"))
             return {"CANCELLED"}
         elif event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS":
             return self._finish(context)
@@ -216,10 +226,11 @@ class UV_OT_conformal_live(bpy.types.Operator):
         self._overlay.points += [(owner.uv[owner.pinned], PINNED) for owner in self._owners]
         text = ""
         if self._drag is not None:
-            shape = {"disk": "Disk, three pins", "free": f"Free, {self._drag.pins} pins"}[self._drag.kind]
+            disk = self._drag.kind == "disk"
+            shape = shown("Disk, three pins") if disk else shown("Free, {count} pins", count=self._drag.pins)
             text = f"{shape}   U {self._place[0]:.4f}   V {self._place[1]:.4f}"
-        self._area.header_text_set(f"Conformal Live Pins   {text}")
-        context.workspace.status_text_set(f"{text}      {HELP}")
+        self._area.header_text_set(f"{shown('Conformal Live Pins')}   {text}")
+        context.workspace.status_text_set(f"{text}      {shown(HELP)}")
         redraw(context, "IMAGE_EDITOR")
 
     def _finish(self, context):
@@ -234,9 +245,9 @@ class UV_OT_conformal_live(bpy.types.Operator):
         return {"FINISHED"}
 
     def _tell(self, drags, values):
-        from .live_pins import told
+        from .live_pins import mapped
 
-        message = told(drags, values)
+        message = mapped(drags, values)
         self.report({"WARNING"} if ";" in message else {"INFO"}, message)
 
     def _end(self, context):

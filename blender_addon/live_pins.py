@@ -23,9 +23,11 @@ from conformal_uv import (
 
 from .image_aspect import aspect_scale
 from .uv_objects import UVObject, folds_told
+from .words import counted
 
 NO_PINS = "no selected island has two pinned UVs or more; select UVs and press P to pin them"
 NO_HANDLE = "there is no pinned UV, and no selected one on the boundary of an island, to drag"
+NO_HANDLE_HERE = "there is no pinned UV, and no selected one on the boundary of an island, to drag here"
 MOST_KEPT = 4
 FEWEST = 2
 
@@ -175,11 +177,11 @@ def nearest(owners: list[PinnedObject], at: tuple[float, float], reach: float) -
     return found
 
 
-def told(drags: list[IslandDrag], values: dict[bpy.types.Object, NDArray[np.float32]]) -> str:
+def mapped(drags: list[IslandDrag], values: dict[bpy.types.Object, NDArray[np.float32]]) -> str:
     """What was done, and whether faces folded that had not."""
     islands = {(drag.ob, int(drag.surface.faces[0])): drag for drag in drags}
     folded = sum(drag.of.read.newly_folded(values[drag.ob], drag.surface.faces) for drag in islands.values())
-    done = f"Mapped {len(islands)} island{'' if len(islands) == 1 else 's'} from pins"
+    done = counted(len(islands), "Mapped {count} island from pins", "Mapped {count} islands from pins")
     return folds_told(done, folded)
 
 

@@ -13,6 +13,7 @@ PAGES = (  # operator, as Blender asks for it, and where the manual tells of it
     ("bpy.ops.uv.conformal_unwrap*", "docs/blender.md#use"),
     ("bpy.ops.uv.conformal_select_*", "docs/blender.md#quality"),
     ("bpy.ops.object.conformal_sphere*", "docs/blender.md#spheres"),
+    ("bpy.ops.uv.conformal_pack*", "docs/blender.md#packing"),
     ("bpy.ops.uv.conformal_*", "docs/blender.md"),
 )
 

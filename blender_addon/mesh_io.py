@@ -39,6 +39,10 @@ class MeshArrays:
         Visible faces with a pinned UV.
     alone : (a,) int32
         Selected vertices of no selected face.
+    pin_corners : (q,) int64
+        Corners of visible faces whose UV is pinned.
+    pin_places : (q, 2) float32
+        Where they are.
     """
 
     V: NDArray[np.float32]
@@ -50,6 +54,8 @@ class MeshArrays:
     pins: NDArray[np.int32]
     pinned: NDArray[np.bool_]
     alone: NDArray[np.int32]
+    pin_corners: NDArray[np.int64]
+    pin_places: NDArray[np.float32]
 
     def digest(self, chosen: NDArray[np.bool_]) -> bytes:
         """A fingerprint of the surface, its seams and the chosen faces (p,)."""
@@ -102,6 +108,8 @@ def read_mesh(mesh: bpy.types.Mesh, uv_layer: str) -> MeshArrays:
         pins=corners[pinned],
         pinned=pinned_faces,
         alone=_alone(mesh, corners[np.repeat(selected & ~hidden, np.diff(starts))]),
+        pin_corners=np.flatnonzero(pinned),
+        pin_places=read_uv(mesh, uv_layer)[pinned] if pinned.any() else np.empty((0, 2), dtype=np.float32),
     )
 
 

@@ -208,7 +208,7 @@ class UV_OT_conformal_select_worst(_Selects, bpy.types.Operator):
 
     by: bpy.props.EnumProperty(
         name="By",
-        description="Which faces are selected",
+        description="Which faces are selected.\nShare to see the worst, Angle Error to see all that are bad",
         items=(
             ("SHARE", "Share", "As many faces of each mesh as the share says, the worst ones"),
             ("ERROR", "Angle Error", "All faces of which a corner is off by more than the angle"),
@@ -217,7 +217,7 @@ class UV_OT_conformal_select_worst(_Selects, bpy.types.Operator):
     )
     share: bpy.props.FloatProperty(
         name="Share",
-        description="Of the visible faces of each mesh",
+        description="Share of the visible faces of each mesh that is selected.\nThe worst ones",
         subtype="PERCENTAGE",
         min=0.0,
         max=100.0,
@@ -225,7 +225,8 @@ class UV_OT_conformal_select_worst(_Selects, bpy.types.Operator):
     )
     error: bpy.props.FloatProperty(
         name="Angle Error",
-        description="The least angle by which a corner of a selected face is off",
+        description="The least angle by which a corner of a selected face is off.\n"
+        "For faces that are bad, however many",
         subtype="ANGLE",
         min=0.0,
         max=3.15,

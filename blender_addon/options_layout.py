@@ -1,5 +1,7 @@
 """The options of an unwrap as rows, wherever they are shown: redo panel, sidebar, dialog."""
 
+from conformal_uv.options import MarginMethod
+
 from .properties import SHOWN, SHOWN_FOR_ALL
 
 
@@ -11,5 +13,11 @@ def draw_options(layout, chosen, *, with_shape=True):
     for names in (first, *SHOWN_FOR_ALL):
         column = layout.column()
         for name in names:
-            column.prop(chosen, name)
+            if means_something(name, chosen):
+                column.prop(chosen, name)
         layout.separator(factor=0.5)
+
+
+def means_something(name, chosen):
+    """Whether an option counts beside the others: an image's size where the margin is counted on one."""
+    return name != "image_size" or chosen.margin_method == MarginMethod.PIXELS.name

@@ -6,8 +6,10 @@ corners shows one of them. The 3D views show it in Solid shading until the overl
 
 import bpy
 
+from . import last_result
 from .edit_mode import object_mode, target_objects
 from .libraries import missing_library
+from .words import told
 
 ANGLE, AREA, COLORS = "conformal_angle_error", "conformal_area_scale", "conformal_distortion"
 BEFORE = "conformal_uv_color_before"  # property of the mesh: its active colour attribute
@@ -16,14 +18,19 @@ _shading = {}  # what 3D views showed before: by screen and number of the area
 
 
 class VIEW3D_OT_conformal_overlay(bpy.types.Operator):
-    """Show how the active UV map changes angles or areas as colours on the surface, or stop showing it"""
+    """Changes of angles or areas by the active UV map as colours on the surface"""
 
     bl_idname = "view3d.conformal_overlay"
     bl_label = "Conformal Distortion Overlay"
+    bl_description = (
+        "Show how the active UV map changes angles or areas as colours on the surface, or stop showing it.\n"
+        "To see where seams are missing; attributes of faces hold the numbers"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     quantity: bpy.props.EnumProperty(
         name="Show",
+        description="What colours stand for.\nNothing removes the overlay",
         items=(
             ("ANGLE", "Angles", "Mean angle error of each face: dark violet is none, yellow the limit and more"),
             ("AREA", "Areas", "Area in the texture for area on the surface: grey is the mean, blue less, red more"),
@@ -32,35 +39,42 @@ class VIEW3D_OT_conformal_overlay(bpy.types.Operator):
         default="ANGLE",
     )
     most_angle: bpy.props.FloatProperty(
-        name="Limit", description="Angle error in degrees that is yellow", min=0.01, soft_max=90.0, default=10.0
+        name="Limit",
+        description="Angle error in degrees that is yellow.\nMore is yellow too",
+        min=0.01,
+        soft_max=90.0,
+        default=10.0,
     )
     most_area: bpy.props.FloatProperty(
-        name="Limit", description="Factor to the mean that is red, and its inverse blue", min=1.01, default=2.0
+        name="Limit",
+        description="Factor to the mean area that is red.\nIts inverse is blue",
+        min=1.01,
+        default=2.0,
     )
 
     @classmethod
     def poll(cls, context):
-        why = "" if context.mode in {"OBJECT", "EDIT_MESH"} else "Go to Object Mode or to Edit Mode of a mesh"
-        why = why or missing_library()
-        if not why and not target_objects(context):
-            why = "Select a mesh object"
+        why = missing_library()
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            why = told("Go to Object Mode or to Edit Mode of a mesh")
+        elif not why and not target_objects(context):
+            why = told("Select a mesh object")
         if why:
             cls.poll_message_set(why)
         return not why
 
     def execute(self, context):
         objects = [ob for ob in target_objects(context) if ob.data.library is None]
-        with object_mode(context):
-            shown = [self._show(ob.data) for ob in objects]
+        with last_result.own_change(context), object_mode(context):
+            have_colors = [self._show(ob.data) for ob in objects]
         if self.quantity == "NONE":
             restore_views()
             return {"FINISHED"}
-        if not any(shown):
-            self.report({"ERROR"}, "No selected mesh has faces and a UV map")
+        if not any(have_colors):
+            self.report({"ERROR"}, told("No selected mesh has faces and a UV map"))
             return {"CANCELLED"}
         show_in_views(context)
-        limit = f"{self.most_angle:g} degrees" if self.quantity == "ANGLE" else f"{self.most_area:g} times the mean"
-        self.report({"INFO"}, f"Full colour stands for {limit}; numbers are in {ANGLE} and {AREA}")
+        self.report({"INFO"}, self._legend())
         return {"FINISHED"}
 
     def _show(self, mesh):
@@ -90,6 +104,20 @@ class VIEW3D_OT_conformal_overlay(bpy.types.Operator):
         )
         write_colors(mesh, COLORS, colors.repeat(polygons.sizes, axis=0))
         return True
+
+    def _legend(self):
+        attributes = {"angle": ANGLE, "area": AREA}
+        if self.quantity == "ANGLE":
+            return told(
+                "Yellow stands for {limit:g} degrees and more; numbers are in {angle} and {area}",
+                limit=self.most_angle,
+                **attributes,
+            )
+        return told(
+            "Red stands for {limit:g} times the mean area and more; numbers are in {angle} and {area}",
+            limit=self.most_area,
+            **attributes,
+        )
 
     def draw(self, context):
         layout = self.layout

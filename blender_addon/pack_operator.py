@@ -4,19 +4,25 @@ import bpy
 
 from .edit_mode import follows_uv_selection
 from .operators import refusal
+from .options_layout import means_something
 from .properties import PACKING, PackOptions, PackProperties
+from .words import told
 
 
 class UV_OT_conformal_pack(PackProperties, bpy.types.Operator):
-    """Pack the islands of all edited or selected objects into the square, by their outlines"""
+    """Islands of the active UV maps packed, whatever made them"""
 
     bl_idname = "uv.conformal_pack"
     bl_label = "Conformal Pack Islands"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_description = (
+        "Pack the islands of all edited or selected objects into the square, by their outlines.\n"
+        "Whatever unwrapped them; fills more than boxes do"
+    )
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     average_scale: bpy.props.BoolProperty(
         name="Average Scale",
-        description="Give islands sizes in the proportion of their surfaces; else they keep theirs to each other",
+        description="Give islands sizes in the proportion of their surfaces.\nOff: they keep theirs to each other",
         default=False,
     )
     only_selected_uvs: bpy.props.BoolProperty(options={"HIDDEN", "SKIP_SAVE"}, default=False)
@@ -50,7 +56,7 @@ class UV_OT_conformal_pack(PackProperties, bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         if not faces:
-            self.report({"ERROR"}, "No visible face with UVs is selected")
+            self.report({"ERROR"}, told("No visible face with UVs is selected"))
             return {"CANCELLED"}
         return {"FINISHED"}
 
@@ -59,7 +65,7 @@ class UV_OT_conformal_pack(PackProperties, bpy.types.Operator):
         layout.use_property_split = True
         layout.use_property_decorate = False
         for name in ("average_scale", *PACKING):
-            if name != "image_size" or self.margin_method == "PIXELS":
+            if means_something(name, self):
                 layout.prop(self, name)
 
 

@@ -18,8 +18,11 @@ from .tasks import Task
 
 
 def placed(tasks: list[Task], options: Options) -> list[NDArray[np.float64]]:
-    """UVs (k, 2) of every task's corners; the islands of all of them in one square, one island alone fills it."""
-    alone = sum(int(task.written.sum()) for task in tasks) == 1
+    """UVs (k, 2) of every task's corners; the islands of all of them in one square, one alone fills it.
+
+    Islands that are held by their pins stay where they are.
+    """
+    alone = sum(int((task.written & ~task.held).sum()) for task in tasks) == 1
     how = {**pack_call(options), **({"margin": 0.0} if alone else {})}
     return pack_together([task.solved for task in tasks], [task.written for task in tasks], **how)
 

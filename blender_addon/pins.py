@@ -17,7 +17,7 @@ NO_CORNERS = (
 )
 HOW_TO_USE = {
     "DISK": "pinned UVs stay where they are; unpin them, or pin three on the boundary and turn on Use Pins",
-    "FREE": "pinned UVs stay where they are; unpin them, or map the island from its pins with Conformal Live Pins",
+    "FREE": "pinned UVs stay where they are; unpin them, or pin two or more and turn on Use Pins",
     "RECTANGLE": "pinned UVs stay where they are; unpin them, or pin four on the boundary and turn on Use Pins",
 }
 
@@ -32,6 +32,15 @@ def offered_pins(arrays: MeshArrays, chosen: NDArray[np.bool_], options: Options
         return None
     pins = _used(arrays, chosen, arrays.pins)
     return pins if pins or not options.takes_selected_corners else _used(arrays, chosen, arrays.alone)
+
+
+def held_uvs(
+    arrays: MeshArrays, chosen: NDArray[np.bool_], scale: NDArray[np.float64]
+) -> dict[int, tuple[float, float]]:
+    """Pinned corners of the chosen faces (p,) and where they are, in a plane that `scale` (2,) makes the texture of."""
+    kept = np.repeat(chosen, np.diff(arrays.starts))[arrays.pin_corners]
+    places = arrays.pin_places[kept].astype(np.float64) / scale
+    return dict(zip(arrays.pin_corners[kept].tolist(), map(tuple, places.tolist()), strict=True))
 
 
 def took_pins(chart: Chart, offered: list[int] | None) -> bool:

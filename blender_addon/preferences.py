@@ -4,9 +4,19 @@ import bpy
 
 from . import keymaps
 from .operators import chosen_options
+from .options_layout import means_something
 from .properties import UnwrapProperties
 
-NAMES = ("shape", "method", "place", "margin")  # of options that have a default here
+NAMES = (  # of options that have a default here
+    "shape",
+    "method",
+    "place",
+    "margin",
+    "margin_method",
+    "image_size",
+    "pack_rotation",
+    "pack_shape",
+)
 
 
 def _start_again(preferences, context):
@@ -16,8 +26,13 @@ def _start_again(preferences, context):
 
 def _property(name, **other):
     """The operator's own property, declared once, with something else about it."""
-    declared = UnwrapProperties.__annotations__[name]
+    # Not of vars(cls), which has no annotations from Python 3.14 on until they are asked for.
+    (declared,) = (cls.__annotations__[name] for cls in UnwrapProperties.__mro__ if _declares(cls, name))
     return declared.function(**{**declared.keywords, "update": _start_again, **other})
+
+
+def _declares(cls, name):
+    return name in getattr(cls, "__annotations__", {})
 
 
 class ConformalUnwrapPreferences(bpy.types.AddonPreferences):
@@ -29,6 +44,10 @@ class ConformalUnwrapPreferences(bpy.types.AddonPreferences):
     method: _property("method")
     place: _property("place")
     margin: _property("margin")
+    margin_method: _property("margin_method")
+    image_size: _property("image_size")
+    pack_rotation: _property("pack_rotation")
+    pack_shape: _property("pack_shape")
 
     def draw(self, context):
         layout = self.layout
@@ -37,7 +56,8 @@ class ConformalUnwrapPreferences(bpy.types.AddonPreferences):
         column = layout.column(heading="")
         column.label(text="The first unwrap from the window starts with")
         for name in NAMES:
-            column.prop(self, name)
+            if means_something(name, self):
+                column.prop(self, name)
         layout.separator()
         layout.label(text="Shortcuts")
         keymaps.draw(layout, context)

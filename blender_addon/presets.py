@@ -42,7 +42,9 @@ class UV_OT_conformal_preset_add(bpy.types.Operator):
     )
     bl_options = {"INTERNAL"}
 
-    name: bpy.props.StringProperty(name="Name", description="Of the preset", options={"SKIP_SAVE"})
+    name: bpy.props.StringProperty(
+        name="Name", description="Name of the preset.\nOne that there is already is replaced", options={"SKIP_SAVE"}
+    )
     remove_name: bpy.props.BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
     remove_active: bpy.props.BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
 

@@ -69,8 +69,13 @@ class Options(PackOptions):
 
     @property
     def takes_pins(self) -> bool:
-        """Whether pins mean something; a free boundary has none."""
+        """Whether pinned vertices go to places of the shape; where the boundary is free, they stay."""
         return self.use_pins and self.shape != Shape.FREE.name
+
+    @property
+    def holds_pins(self) -> bool:
+        """Whether islands are mapped with their pinned UVs where they are."""
+        return self.use_pins and self.shape == Shape.FREE.name
 
     @property
     def takes_active(self) -> bool:
@@ -86,7 +91,7 @@ class Options(PackOptions):
 DEFAULTS = Options()
 SHOWN = {  # names in the redo panel, by shape and then for all
     Shape.DISK.name: ("method", "center", "use_pins"),
-    Shape.FREE.name: ("refine",),
+    Shape.FREE.name: ("refine", "use_pins"),
     Shape.RECTANGLE.name: ("corner_choice", "use_pins"),
 }
 PACKING = tuple(field.name for field in fields(PackOptions))
@@ -103,8 +108,8 @@ class PackProperties:
 
     margin: FloatProperty(
         name="Margin",
-        description="Space kept around every island, twice that between two; one island that is unwrapped alone "
-        "fills the square",
+        description="Space kept around every island, twice that between two.\n"
+        "One island that is unwrapped alone fills the square",
         min=0.0,
         max=1000.0,
         soft_max=0.1,
@@ -114,13 +119,13 @@ class PackProperties:
     )
     margin_method: EnumProperty(
         name="Margin Method",
-        description="What the margin is, as in Blender's own packer",
+        description="What the margin is, as in Blender's own packer.\nPixels for an image of known size",
         items=MARGIN_METHODS,
         default=DEFAULTS.margin_method,
     )
     image_size: IntProperty(
         name="Image Size",
-        description="Side of the image that pixels of the margin are counted on",
+        description="Side of the image that pixels of the margin are counted on.\nFor the margin method Pixels",
         min=1,
         max=1 << 20,
         soft_max=1 << 14,
@@ -128,25 +133,25 @@ class PackProperties:
     )
     pack_rotation: EnumProperty(
         name="Rotate",
-        description="How islands may be turned to fill more of the square; what was upright is so no more",
+        description="How islands may be turned to fill more of the square.\nWhat was upright is so no more",
         items=PACK_ROTATIONS,
         default=DEFAULTS.pack_rotation,
     )
     pack_shape: EnumProperty(
         name="Shape Method",
-        description="What is packed of an island",
+        description="What is packed of an island.\nExact Shape fills the most, Bounding Box keeps bays free",
         items=PACK_SHAPES,
         default=DEFAULTS.pack_shape,
     )
     keep_scale: BoolProperty(
         name="Keep Scale",
-        description="Do not scale islands to fit the square, beyond which they may lie; unwrapped islands have the "
-        "size of their surface, a unit of length a unit of UV",
+        description="Do not scale islands to fit the square, beyond which they may lie.\n"
+        "Unwrapped islands have the size of their surface, a unit of length a unit of UV",
         default=DEFAULTS.keep_scale,
     )
     tile: IntProperty(
         name="UDIM Tile",
-        description="The tile to pack into: 1001 is the first, 1002 to its right, 1011 above it",
+        description="The tile to pack into.\n1001 is the first, 1002 to its right, 1011 above it",
         min=1001,
         max=2000,
         default=DEFAULTS.tile,
@@ -187,9 +192,10 @@ class UnwrapProperties(PackProperties):
     )
     use_pins: BoolProperty(
         name="Use Pins",
-        description="Disks: three pinned UVs on an island's boundary go to three equally spaced points of the circle.\n"
-        "Rectangles: four pinned UVs on the boundary are the corners; of a mesh without pins four selected vertices, "
-        "while no face is selected",
+        description="Free: islands with two pinned UVs or more follow them. Disks: three on the boundary go to equally "
+        "spaced points of the circle.\n"
+        "Rectangles: four on the boundary are the corners; of a mesh without pins four selected vertices, while no "
+        "face is selected",
         default=DEFAULTS.use_pins,
     )
     corner_choice: EnumProperty(
@@ -235,7 +241,7 @@ class UnwrapProperties(PackProperties):
     )
     place: EnumProperty(
         name="Place",
-        description="Where islands go in the texture.\nKeep Size and Pack where they share a density",
+        description="Where islands go in the texture.\nPack Together where objects share it",
         items=PLACES,
         default=DEFAULTS.place,
     )

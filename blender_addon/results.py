@@ -90,7 +90,6 @@ class UnwrapResult:
 
     objects: list[ObjectResult]
     seconds: float
-    notes: list[str] = field(default_factory=list)
     options: Options = Options()
 
     def measure(self) -> None:
@@ -149,7 +148,7 @@ class UnwrapResult:
     @property
     def remarks(self) -> list[str]:
         """What was mended, left unused or lost, object by object."""
-        said = self.notes + [f"{ob.name}: {note}" for ob in self.objects for note in dict.fromkeys(ob.notes)]
+        said = [f"{ob.name}: {note}" for ob in self.objects for note in dict.fromkeys(ob.notes)]
         for ob in self.objects:
             if ob.flipped:
                 inverted = counted(ob.flipped, "{count} face is inverted", "{count} faces are inverted")
@@ -165,7 +164,6 @@ class UnwrapResult:
             "islands": self.islands,
             "unwrapped": self.unwrapped,
             "seconds": self.seconds,
-            "notes": self.notes,
             "objects": [ob.as_dict() for ob in self.objects],
         }
 

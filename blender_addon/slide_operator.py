@@ -8,6 +8,7 @@ from .edit_mode import target_objects
 from .libraries import missing_library
 from .mouse import in_uv_editor, passes, redraw, uv_at, window_region
 from .typed_numbers import TypedNumbers
+from .words import shown, told
 
 STEP, PRECISE = math.radians(5.0), 0.1  # of a notch of the wheel, and of everything while Shift is held
 HELP = (
@@ -19,23 +20,27 @@ HELP = (
 def refusal(context):
     """Why there is nothing to slide, empty where there may be something."""
     if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Go to Object Mode or to Edit Mode of a mesh"
+        return told("Go to Object Mode or to Edit Mode of a mesh")
     if not any(ob.data.uv_layers.active for ob in target_objects(context)):
-        return "Select a mesh object with a UV map"
+        return told("Select a mesh object with a UV map")
     return missing_library()
 
 
 class UV_OT_conformal_slide(bpy.types.Operator):
-    """Slide what is in the middle of a disk elsewhere, and turn it, angles kept.
-    Drag what should go elsewhere; islands whose boundary is a circle can be slid"""
+    """A disk's middle dragged elsewhere, and the disk turned, angles kept"""
 
     bl_idname = "uv.conformal_slide"
     bl_label = "Conformal Slide"
+    bl_description = (
+        "Slide what is in the middle of a disk elsewhere, and turn it, keeping angles.\n"
+        "Drag what should go elsewhere; islands whose boundary is a circle can be slid"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     center: bpy.props.FloatVectorProperty(
         name="Center",
-        description="Where the middle of the disk goes, as a part of its radius",
+        description="Where the middle of the disk goes, as a part of its radius.\n"
+        "To give what matters more of the texture, slide it to the middle",
         size=2,
         min=-1.0,
         max=1.0,
@@ -45,7 +50,7 @@ class UV_OT_conformal_slide(bpy.types.Operator):
     )
     rotation: bpy.props.FloatProperty(
         name="Rotation",
-        description="How far the disk is turned about its middle",
+        description="How far the disk is turned about its middle.\nAfter it was slid",
         subtype="ANGLE",
         options={"SKIP_SAVE"},
     )
@@ -64,14 +69,14 @@ class UV_OT_conformal_slide(bpy.types.Operator):
         return not why
 
     def execute(self, context):
-        from .disks import NONE_FOUND, NONE_SELECTED, by_object, chosen_disks, find_disks, told
+        from .disks import NONE_FOUND, NONE_SELECTED, by_object, chosen_disks, find_disks, slid
         from .live_uvs import LiveUVs
         from .slide import Slide
 
         disks = find_disks(context, target_objects(context))
         chosen = chosen_disks(disks, self.object_name, self.face)
         if not chosen:
-            self.report({"ERROR"}, NONE_SELECTED if disks else NONE_FOUND)
+            self.report({"ERROR"}, told(NONE_SELECTED if disks else NONE_FOUND))
             return {"CANCELLED"}
         slide = Slide(complex(*self.center), self.rotation)
         if slide.center == 0 and slide.rotation == 0:
@@ -86,24 +91,25 @@ class UV_OT_conformal_slide(bpy.types.Operator):
             live.restore()
             raise
         live.keep()
-        self._report(told(chosen, live.values))
+        self._report(slid(chosen, live.values))
         return {"FINISHED"}
 
     def invoke(self, context, event):
         from .disks import NONE_FOUND, NONE_SELECTED, chosen_disks, disk_under, find_disks
+        from .sphere_slide import find_spheres, laid_out
 
         if not in_uv_editor(context):
             return self.execute(context)
         disks = find_disks(context, target_objects(context))
         self._by_press = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
-        if not disks and self._by_press:
-            return {"PASS_THROUGH"}  # the tool slides spheres too
+        if not disks and self._by_press and laid_out(find_spheres(context, target_objects(context))):
+            return {"PASS_THROUGH"}  # the tool slides spheres too; Blender asks in either order
         self._area, self._region = context.area, window_region(context.area)
         at = uv_at(self._region, event)
         under = disk_under(disks, at)
         chosen = [under] if under else chosen_disks(disks)
         if not chosen:
-            self.report({"ERROR"}, NONE_SELECTED if disks else NONE_FOUND)
+            self.report({"ERROR"}, told(NONE_SELECTED if disks else NONE_FOUND))
             return {"CANCELLED"}
         self.object_name, self.face = (under.ob.name, under.face) if under else ("", -1)
         self._start(context, chosen, at if under else None)
@@ -119,7 +125,7 @@ class UV_OT_conformal_slide(bpy.types.Operator):
             self._show(context)
         elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             self.cancel(context)
-            self.report({"INFO"}, "Conformal Slide cancelled; nothing was changed")
+            self.report({"INFO"}, told("Cancelled; nothing was changed"))
             return {"CANCELLED"}
         elif self._confirmed(event):
             return self._finish(context)
@@ -192,22 +198,24 @@ class UV_OT_conformal_slide(bpy.types.Operator):
         self._overlay.edges = list(zip(placed.values(), self._pairs, strict=True))
         middle = complex(self._slide.center)
         self._overlay.points = [([in_uv(disk, middle) for disk in self._chosen], CENTER)]
-        shown, center = self._typed.shown, self._slide.center
-        text = (
-            f"Rotation {shown('rotation', math.degrees(self._slide.rotation), 1)}°   "
-            f"X {shown('x', center.real)}   Y {shown('y', center.imag)}"
+        number, center = self._typed.shown, self._slide.center
+        text = shown(
+            "Rotation {rotation}°   X {x}   Y {y}",
+            rotation=number("rotation", math.degrees(self._slide.rotation), 1),
+            x=number("x", center.real),
+            y=number("y", center.imag),
         )
-        self._area.header_text_set(f"Conformal Slide   {text}")
-        context.workspace.status_text_set(f"{text}      {HELP}")
+        self._area.header_text_set(f"{shown('Conformal Slide')}   {text}")
+        context.workspace.status_text_set(f"{text}      {shown(HELP)}")
         redraw(context, "IMAGE_EDITOR")
 
     def _finish(self, context):
-        from .disks import told
+        from .disks import slid
 
         self.center = (self._slide.center.real, self._slide.center.imag)
         self.rotation = self._slide.rotation
         self._live.keep()
-        self._report(told(self._chosen, self._live.values))
+        self._report(slid(self._chosen, self._live.values))
         self._end(context)
         return {"FINISHED"}
 

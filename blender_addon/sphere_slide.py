@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from conformal_uv import SphereMoebius, StoredSphere, on_sphere, stored_sphere
 
 from .live_uvs import LiveUVs
-from .sphere import SHAPE_KEY
+from .spheres import SHAPE_KEY
 from .uv_objects import UVObject, uv_objects
 
-NONE_FOUND = f"no shape key {SHAPE_KEY!r} with the positions of a sphere; run Object > Conformal Sphere Map first"
-NO_LAYOUT = "the active UV map is no layout of the sphere; run Object > Conformal Sphere Map with UVs first"
+NONE_FOUND = "no shape key has the positions of a sphere; use Object > Conformal Sphere Map first"
+NO_LAYOUT = "the active UV map is no layout of the sphere; use Object > Conformal Sphere Map with UVs first"
 MOST = 0.999  # length of the direction of a boost; beyond, single precision loses the rest
 
 
@@ -50,6 +50,11 @@ def find_spheres(context: bpy.types.Context, objects: Iterable[bpy.types.Object]
         if stored is not None:
             found.append(Sphere(read, stored))
     return found
+
+
+def laid_out(spheres: list[Sphere]) -> list[Sphere]:
+    """Those whose active UV map is a layout of the sphere."""
+    return [sphere for sphere in spheres if sphere.stored.octahedron is not None]
 
 
 class LiveSpheres:

@@ -6,22 +6,26 @@ from mathutils import Euler, Matrix
 from .edit_mode import target_objects
 from .mouse import in_uv_editor, passes, redraw, uv_at, window_region
 from .slide_operator import refusal
+from .words import counted, shown, told
 
 STEP, PRECISE = 0.1, 0.1  # logarithm of the scale of a notch of the wheel; of everything while Shift is held
 HELP = "Drag: turn   Wheel: magnify here   Shift: precise   Enter, click: confirm   Esc, right click: cancel"
 
 
 class UV_OT_conformal_sphere_slide(bpy.types.Operator):
-    """Turn the sphere that a closed mesh was mapped to, and magnify what lies under the mouse, angles kept.
-    Moves the shape key of Conformal Sphere Map and the UVs that were written with it"""
+    """A mesh's conformal sphere turned, and magnified where the mouse is, angles kept"""
 
     bl_idname = "uv.conformal_sphere_slide"
     bl_label = "Conformal Sphere Slide"
+    bl_description = (
+        "Turn the sphere that a closed mesh was mapped to, and magnify what lies under the mouse, keeping angles.\n"
+        "Moves the shape key of Conformal Sphere Map and the UVs that were written with it"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     toward: bpy.props.FloatVectorProperty(
         name="Toward",
-        description="Where all points move to, the farther the longer it is (less than 1); what lies opposite grows",
+        description="Where all points move to, the farther the longer it is (less than 1).\nWhat lies opposite grows",
         size=3,
         min=-1.0,
         max=1.0,
@@ -30,7 +34,11 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
     rotation: bpy.props.FloatVectorProperty(
-        name="Rotation", description="Turns the sphere before", subtype="EULER", size=3, options={"SKIP_SAVE"}
+        name="Rotation",
+        description="How the sphere is turned.\nBefore its points move",
+        subtype="EULER",
+        size=3,
+        options={"SKIP_SAVE"},
     )
 
     _live = None
@@ -51,7 +59,7 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
 
         spheres = find_spheres(context, target_objects(context))
         if not spheres:
-            self.report({"ERROR"}, NONE_FOUND)
+            self.report({"ERROR"}, told(NONE_FOUND))
             return {"CANCELLED"}
         try:
             moebius = SphereMoebius.of(self.toward, np.array(Euler(self.rotation).to_matrix()))
@@ -70,19 +78,22 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
 
     def invoke(self, context, event):
         from .disks import NONE_FOUND as NO_DISK
-        from .sphere_slide import NO_LAYOUT, NONE_FOUND, LiveSpheres, SphereSlide, find_spheres
+        from .disks import find_disks
+        from .sphere_slide import NO_LAYOUT, NONE_FOUND, LiveSpheres, SphereSlide, find_spheres, laid_out
 
         if not in_uv_editor(context):
             return self.execute(context)
         self._spheres = find_spheres(context, target_objects(context))
         self._by_press = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
-        laid_out = [sphere for sphere in self._spheres if sphere.stored.octahedron is not None]
-        if not laid_out:
-            why = NO_LAYOUT if self._spheres else NONE_FOUND
-            self.report({"ERROR"}, f"{NO_DISK}; and {why}" if self._by_press else why)
+        flat = laid_out(self._spheres)
+        if not flat:
+            if self._by_press and find_disks(context, target_objects(context)):
+                return {"PASS_THROUGH"}  # the tool slides disks too; Blender asks in either order
+            why = told(NO_LAYOUT if self._spheres else NONE_FOUND)
+            self.report({"ERROR"}, f"{told(NO_DISK)}; {why}" if self._by_press else why)
             return {"CANCELLED"}
         self._area, self._region = context.area, window_region(context.area)
-        self._slide, self._last = SphereSlide(laid_out[0].stored.octahedron), None
+        self._slide, self._last = SphereSlide(flat[0].stored.octahedron), None
         self._live = LiveSpheres(context, self._spheres)
         self._show(context)
         context.window_manager.modal_handler_add(self)
@@ -104,7 +115,7 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
             self._show(context)
         elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             self.cancel(context)
-            self.report({"INFO"}, "Conformal Sphere Slide cancelled; nothing was changed")
+            self.report({"INFO"}, told("Cancelled; nothing was changed"))
             return {"CANCELLED"}
         elif self._confirmed(event):
             return self._finish(context)
@@ -134,9 +145,9 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
         """Write the present state, and tell it."""
         self._live.show(self._slide.moebius)
         toward, _ = self._slide.moebius.toward_and_rotation()
-        text = "Toward " + "  ".join(f"{part:.3f}" for part in toward)
-        self._area.header_text_set(f"Conformal Sphere Slide   {text}")
-        context.workspace.status_text_set(f"{text}      {HELP}")
+        text = shown("Toward {place}", place="  ".join(f"{part:.3f}" for part in toward))
+        self._area.header_text_set(f"{shown('Conformal Sphere Slide')}   {text}")
+        context.workspace.status_text_set(f"{text}      {shown(HELP)}")
         redraw(context, "IMAGE_EDITOR")
 
     def _finish(self, context):
@@ -149,8 +160,7 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
         return {"FINISHED"}
 
     def _tell(self, spheres):
-        count = len(spheres)
-        self.report({"INFO"}, f"Moved {count} sphere{'' if count == 1 else 's'}")
+        self.report({"INFO"}, counted(len(spheres), "Moved {count} sphere", "Moved {count} spheres"))
 
     def _end(self, context):
         self._live = None

@@ -20,7 +20,8 @@ def changed(scene, depsgraph):
         if update.is_updated_geometry and isinstance(update.id, bpy.types.Mesh):
             if update.id.original.session_uid in meshes:
                 last_result.set_stale(True)
-                if not bpy.app.timers.is_registered(_look_closer):
+                # In background no timer runs, and one that waits at the end crashes Blender 4.2 on its way out.
+                if not (bpy.app.background or bpy.app.timers.is_registered(_look_closer)):
                     bpy.app.timers.register(_look_closer, first_interval=SECONDS)
                 return
 

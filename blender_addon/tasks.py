@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from conformal_uv import Unwrapped
 
 from .edit_mode import active_vertex, settled_mesh
+from .image_aspect import image_scale
 from .kept_work import Surface
 from .mesh_io import MeshArrays, has_room, holds_vectors, read_mesh, selected_uvs, uv_layer_name
-from .pins import HOW_TO_USE, NO_CORNERS, offered_pins, took_pins
+from .pins import HOW_TO_USE, NO_CORNERS, held_uvs, offered_pins, took_pins
 from .properties import Options
 from .subdivided import Subdivision, read_subdivided
 from .words import told
@@ -75,7 +76,7 @@ class Task:
         for number in np.flatnonzero(solved.charts.mapped).tolist():
             chart = solved.charts[number]
             own = self.own_faces(chart.faces)
-            if self.pinned[own].any() and not took_pins(chart, offered):
+            if self.pinned[own].any() and not (solved.charts.held[number] or took_pins(chart, offered)):
                 self.left[number] = told(HOW_TO_USE[options.shape])
             elif self.unselected[own].any():
                 self.left[number] = told("some of its UVs are not selected; select whole islands")
@@ -88,6 +89,11 @@ class Task:
         done = self.solved.charts.mapped.copy()
         done[list(self.left)] = False
         return done
+
+    @property
+    def held(self) -> NDArray[np.bool_]:
+        """Charts that stay where their pins are, (c,)."""
+        return np.zeros(0, dtype=bool) if self.solved is None else self.solved.charts.held
 
     @property
     def mapped(self) -> NDArray[np.bool_]:
@@ -142,13 +148,15 @@ def _task(context: bpy.types.Context, ob: bpy.types.Object, options: Options) ->
     if active is not None and not np.isin(active, arrays.corners[np.repeat(chosen, np.diff(arrays.starts))]):
         return Task(ob, layer, None, told("active vertex {vertex} belongs to no selected face", vertex=active))
     pinned = arrays.pinned
+    held = held_uvs(arrays, chosen, image_scale(ob, options)) if options.holds_pins else {}
     subdivision = read_subdivided(context, ob, arrays) if options.use_subsurf_data else None
     if subdivision is not None:
         arrays, chosen = subdivision.arrays, chosen[subdivision.face]
+        held = {int(subdivision.corner[corner]): place for corner, place in held.items()}
     return Task(
         ob,
         layer,
-        Surface(arrays, chosen, active),
+        Surface(arrays, chosen, active, held),
         pinned=pinned,
         unselected=unselected,
         subdivision=subdivision,

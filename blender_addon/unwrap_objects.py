@@ -11,7 +11,7 @@ import numpy as np
 from conformal_uv import Callback, CancelledError, ConformalUVError
 
 from .edit_mode import object_mode
-from .image_aspect import ROUND, aspect_scale
+from .image_aspect import image_scale
 from .kept_work import KEPT, KeptWork, Key
 from .mesh_io import fingerprint, write_uv
 from .packing import placed, tile_corner
@@ -95,13 +95,21 @@ def unwrap_objects(
     with object_mode(context):
         for group in [done] if together and done else [[task] for task in done]:
             for task, uv in zip(group, placed(group, options), strict=True):
-                scale = aspect_scale(task.ob) if options.correct_aspect else ROUND
-                stored[id(task)] = uv if scale == ROUND else middle + scale * (uv - middle)
+                stored[id(task)] = _on_image(task, uv, image_scale(task.ob, options), middle)
         for task in done:
             _write(task, stored[id(task)])
         prints = {id(task): fingerprint(task.ob.data, task.layer) for task in done}
     results = [object_result(task, stored.get(id(task)), corner, prints.get(id(task), b"")) for task in tasks]
-    return UnwrapResult(results, time.perf_counter() - start, [], options)
+    return UnwrapResult(results, time.perf_counter() - start, options)
+
+
+def _on_image(task: Task, uv: np.ndarray, scale: np.ndarray, middle: np.ndarray) -> np.ndarray:
+    """UVs (k, 2) as the image has them: drawn together about the middle of the tile, islands with pins about 0."""
+    if (scale == 1.0).all():
+        return uv
+    held = np.append(task.held, False)[task.solved.chart_of_face]
+    about = np.where(np.repeat(held, np.diff(task.surface.arrays.starts))[:, None], 0.0, middle)
+    return about + scale * (uv - about)
 
 
 def _write(task: Task, uv: np.ndarray) -> None:

@@ -13,6 +13,7 @@ from conformal_uv import PolygonMesh, flipped_polygons
 
 from .edit_mode import settled_mesh
 from .mesh_io import read_corner_flags, read_mesh, read_selected_vertices, read_uv, selected_uvs
+from .words import counted
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +52,14 @@ class UVObject:
 
 def folds_told(done: str, folded: int) -> str:
     """A message, with the faces that folded if there are any."""
-    return f"{done}; {folded} more face{' is' if folded == 1 else 's are'} flipped or collapsed now" if folded else done
+    if not folded:
+        return done
+    more = counted(
+        folded,
+        "{count} more face is flipped or collapsed now",
+        "{count} more faces are flipped or collapsed now",
+    )
+    return f"{done}; {more}"
 
 
 def uv_objects(context: bpy.types.Context, objects: Iterable[bpy.types.Object]) -> list[UVObject]:

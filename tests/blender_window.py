@@ -98,8 +98,60 @@ def grid_now():
     return bpy.data.objects["Grid"]
 
 
-def bytes_now():
-    return scenes.shadowed(scenes.uvs(grid_now()))
+def bytes_now(name="Grid"):
+    """UVs, positions and shape keys of an object, and which attributes it has, in any mode."""
+    ob = bpy.data.objects[name]
+    with part("edit_mode").settled_mesh(ob) as mesh:
+        uv = np.empty(2 * len(mesh.loops), dtype=np.float32)
+        mesh.uv_layers.active.uv.foreach_get("vector", uv)
+        positions = [np.empty(3 * len(mesh.vertices), dtype=np.float32)]
+        mesh.vertices.foreach_get("co", positions[0])
+        for key in mesh.shape_keys.key_blocks if mesh.shape_keys else ():
+            positions.append(np.empty_like(positions[0]))
+            key.data.foreach_get("co", positions[-1])
+        names = sorted(data.name for data in mesh.attributes if not data.name.startswith("."))
+    return scenes.shadowed(np.concatenate([uv, *positions])), names
+
+
+def uv_editor():
+    """Area and region of a UV editor that shows the unit square, made of the editor of properties."""
+    areas = list(window().screen.areas)
+    area = next((a for a in areas if a.ui_type == "UV"), None)
+    if area is None:
+        area = next(a for a in areas if a.type == "PROPERTIES")
+        area.ui_type = "UV"
+    region = next(r for r in area.regions if r.type == "WINDOW")
+    return {"window": window(), "screen": window().screen, "area": area, "region": region}
+
+
+def at(u, v):
+    """Where a UV is in the window."""
+    region = uv_editor()["region"]
+    x, y = region.view2d.view_to_region(u, v, clip=False)
+    return {"x": region.x + x, "y": region.y + y}
+
+
+def in_uv_editor(operator, *given, **options):
+    with bpy.context.temp_override(**uv_editor()):
+        return operator(*given, **options)
+
+
+def shown_uvs():
+    """The UV editor with the unit square in it."""
+    uv_editor()
+    yield from turns()
+    in_uv_editor(bpy.ops.image.view_all, fit_view=True)
+    yield from turns()
+
+
+def there_and_back(before, name="Grid"):
+    """Undo and redo by their keys, each to the bit."""
+    after = bytes_now(name)
+    assert after != before
+    press("Z", ctrl=True)
+    yield from until(lambda: name in bpy.data.objects and bytes_now(name) == before, "undo")
+    press("Z", ctrl=True, shift=True)
+    yield from until(lambda: bytes_now(name) == after, "redo")
 
 
 def working():
@@ -193,10 +245,10 @@ def case_escape_leaves_all_as_it_was():
 
 def case_nothing_is_written_where_the_mesh_was_changed_meanwhile():
     ob = yield from fresh(*LARGE)
-    before = bytes_now()
     assert invoke(bpy.ops.uv.conformal_unwrap) == {"RUNNING_MODAL"}
     yield
     ob.data.vertices[0].co.z += 1.0
+    before = bytes_now()
     yield from until(lambda: not working(), "the thread")
     yield from turns()
     assert bytes_now() == before
@@ -253,6 +305,117 @@ def case_the_dialog_unwraps_with_the_sidebars_options():
     corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * (uv.max(axis=0) - uv.min(axis=0)) + uv.min(axis=0)
     nearest = np.linalg.norm(uv[None] - corners[:, None], axis=2).min(axis=1)
     assert nearest.max() < 1e-5, "a rectangle has corners"
+
+
+def dragged(operator, path, key=None, release=True, name="Grid"):
+    """A tool of the UV editor run over a path of UVs, by a press of the left button, ended by it or by a key."""
+    for kind, value in (("MOUSEMOVE", "NOTHING"), ("LEFTMOUSE", "PRESS")):
+        window().event_simulate(type=kind, value=value, **at(*path[0]))
+    yield from turns()
+    before = bytes_now(name)
+    assert in_uv_editor(operator, "INVOKE_DEFAULT", True) == {"RUNNING_MODAL"}
+    yield
+    for place in path:
+        window().event_simulate(type="MOUSEMOVE", value="NOTHING", **at(*place))
+        yield
+    yield from turns()
+    assert bytes_now(name) != before, "nothing follows the mouse"
+    window().event_simulate(type=key or "LEFTMOUSE", value="PRESS", **at(*path[-1]))
+    yield
+    window().event_simulate(type=key or "LEFTMOUSE", value="RELEASE", **at(*path[-1]))
+    yield from until(lambda: not window().modal_operators, "the end of the tool")
+    yield from turns()
+
+
+def in_mode(mode):
+    with bpy.context.temp_override(**view()):
+        bpy.ops.object.mode_set(mode=mode)
+
+
+def slide_in(mode):
+    yield from fresh(12, 9)
+    invoke(bpy.ops.uv.conformal_unwrap, shape="DISK")
+    yield from turns()
+    in_mode(mode)
+    yield from shown_uvs()
+    undo_step()
+    yield from turns()
+    before, slide = bytes_now(), bpy.ops.uv.conformal_slide
+    yield from dragged(slide, [(0.5, 0.5), (0.55, 0.5), (0.7, 0.6)], key="ESC")
+    assert bytes_now() == before and not part("last_result").stale()
+    yield from dragged(slide, [(0.5, 0.5), (0.55, 0.5), (0.7, 0.6)], key="RET")
+    assert bpy.context.mode == ("EDIT_MESH" if mode == "EDIT" else "OBJECT")
+    yield from until(part("last_result").stale, "the result's UVs are others now")
+    yield from there_and_back(before)
+
+
+def case_slide_in_object_mode():
+    yield from slide_in("OBJECT")
+
+
+def case_slide_in_edit_mode():
+    yield from slide_in("EDIT")
+
+
+def case_live_pins():
+    ob = yield from fresh(12, 9)
+    invoke(bpy.ops.uv.conformal_unwrap, shape="FREE")
+    scenes.pin(ob, [0, 12])
+    yield from turns()
+    yield from shown_uvs()
+    undo_step()
+    uv = scenes.uvs(ob)[[loop.vertex_index for loop in ob.data.loops].index(12)].tolist()
+    path = [uv, (uv[0] - 0.05, uv[1] + 0.05), (uv[0] - 0.2, uv[1] + 0.2)]
+    before = bytes_now()
+    window().event_simulate(type="MOUSEMOVE", value="NOTHING", **at(*uv))
+    yield from turns()
+    assert in_uv_editor(bpy.ops.uv.conformal_live, "INVOKE_DEFAULT", True) == {"RUNNING_MODAL"}
+    yield from turns()
+    window().event_simulate(type="LEFTMOUSE", value="PRESS", **at(*uv))
+    yield
+    for place in path:
+        window().event_simulate(type="MOUSEMOVE", value="NOTHING", **at(*place))
+        yield
+    window().event_simulate(type="LEFTMOUSE", value="RELEASE", **at(*path[-1]))
+    yield
+    window().event_simulate(type="RET", value="PRESS", **at(*path[-1]))
+    yield from until(lambda: not window().modal_operators, "the end of the tool")
+    window().event_simulate(type="RET", value="RELEASE", **at(*path[-1]))
+    yield from turns()
+    yield from there_and_back(before)
+
+
+def case_a_sphere_slides():
+    yield from fresh(4, 4)
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    invoke(bpy.ops.object.conformal_sphere, uv="EQUIRECTANGULAR")
+    name = bpy.context.object.name
+    yield from turns()
+    yield from shown_uvs()
+    undo_step()
+    before = bytes_now(name)
+    yield from dragged(bpy.ops.uv.conformal_sphere_slide, [(0.5, 0.5), (0.55, 0.5), (0.6, 0.6)], key="RET", name=name)
+    yield from there_and_back(before, name)
+
+
+def case_packing_overlay_and_flattening_there_and_back():
+    yield from fresh(12, 9)
+    invoke(bpy.ops.uv.conformal_unwrap, shape="FREE")
+    yield from turns()
+    for operator, options in (
+        (bpy.ops.uv.conformal_pack, {"margin": 0.1}),
+        (bpy.ops.view3d.conformal_overlay, {}),
+        (bpy.ops.object.conformal_flatten, {"result": "SHAPE_KEY"}),
+    ):
+        before = bytes_now()
+        assert invoke(operator, **options) == {"FINISHED"}
+        yield from turns()
+        yield from there_and_back(before)
+    assert invoke(bpy.ops.object.conformal_flatten, result="OBJECT") == {"FINISHED"}
+    yield from turns()
+    assert "Grid Flat" in bpy.data.objects
+    press("Z", ctrl=True)
+    yield from until(lambda: "Grid Flat" not in bpy.data.objects, "undo")
 
 
 def run(cases, report):

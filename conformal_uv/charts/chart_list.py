@@ -34,6 +34,8 @@ class ChartList(Sequence[Chart]):
     ----------
     mapped : (c,) bool
         Which charts have a map.
+    held : (c,) bool
+        Which of them lie where pinned corners are: no packing moves them.
     errors : dict of int to ConformalUVError
         Why the others have none.
     split : Split
@@ -44,7 +46,7 @@ class ChartList(Sequence[Chart]):
 
     def __init__(self, split: Split, meshes: ChartMeshes, solutions: ChartSolutions, placed: Placements) -> None:
         self.split, self.meshes, self.solutions, self.placed = split, meshes, solutions, placed
-        self.mapped, self.errors = solutions.mapped, solutions.errors
+        self.mapped, self.held, self.errors = solutions.mapped, solutions.held, solutions.errors
         chart_of_polygon = split.surface.chart[: split.surface.real]
         self._faces = split.selected[np.argsort(chart_of_polygon, kind="stable")]
         self._first = np.concatenate(([0], np.cumsum(np.bincount(chart_of_polygon, minlength=split.count))))

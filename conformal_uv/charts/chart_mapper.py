@@ -9,14 +9,15 @@ from numpy.typing import NDArray
 
 from ..disk import DiskMap, DiskMapper
 from ..errors import ConformalUVError, DegenerateFaceError, MeshError, Remedy, SolverError, listed
-from ..free import FreeMap, mapped_free
+from ..free import FreeMap, PinnedMapper, mapped_free
 from ..operators.factorized_disk import FactorizedDisk
 from ..operators.wirtinger import planar_sides, signed_double_areas
-from ..options import ChartOptions, Laplacian, Shape
+from ..options import ChartOptions, FreeOptions, Laplacian, Shape
 from ..progress import Callback, Progress
 from ..rectangle import RectangleMap, mapped_rectangle
 from .chart_meshes import ChartMesh
 from .named_vertices import NamedVertices, vertices_used
+from .pinned_corners import ChartPins
 from .upright import upright_turn
 
 __all__ = ["ChartMapper", "ChartSolution", "ShapeMap"]
@@ -31,8 +32,8 @@ class ChartSolution:
     """The map of a chart or the error.
 
     `z` (n,) are positions of its own vertices, turned upright: in the unit disk, of other shapes in the middle of the
-    square [-1, 1]^2 that they fill one way; `signed` is twice the image's area of its own triangles (m,) there, `used`
-    are the caller's vertices that its options took.
+    square [-1, 1]^2 that they fill one way, of `held` ones where their pins are; `signed` is twice the image's area of
+    its own triangles (m,) there, `used` are the caller's vertices that its options took.
     """
 
     map: ShapeMap | None
@@ -41,6 +42,7 @@ class ChartSolution:
     z: NDArray[np.complex128]
     signed: NDArray[np.float64]
     used: Used = field(default_factory=dict)
+    held: bool = False
 
 
 class ChartMapper:
@@ -62,6 +64,7 @@ class ChartMapper:
         self._laplacian, self._backend = laplacian, backend
         self._factorized: FactorizedDisk | None = None
         self._disk: DiskMapper | None = None
+        self._pinned: PinnedMapper | None = None
 
     def solve(
         self,
@@ -69,8 +72,9 @@ class ChartMapper:
         options: ChartOptions,
         vertices: NamedVertices,
         callback: Callback | None,
+        pins: ChartPins | None = None,
     ) -> ChartSolution:
-        """Map the chart; what is wrong with the chart comes back as its error.
+        """Map the chart, where there are `pins` with these where they are; what is wrong comes back as its error.
 
         Raises
         ------
@@ -79,12 +83,29 @@ class ChartMapper:
         if self._error is not None:
             return _failed(self._error)
         try:
+            if pins is not None:
+                return self._held(*pins, vertices, callback)
             found, used, notes = self._mapped(shape, options, vertices, callback)
         except (MeshError, SolverError) as error:
             return _failed(self._told(error))
         z = self._framed(found, shape, options, fixed=vertices.ordered and bool(len(used["pins"])))
-        signed = signed_double_areas(planar_sides(z, self.mesh.F.T.astype(np.int32)))
-        return ChartSolution(map=found, error=None, notes=notes, z=z, signed=signed, used=used)
+        return ChartSolution(map=found, error=None, notes=notes, z=z, signed=self._signed(z), used=used)
+
+    def _held(
+        self, pins: NDArray[np.int64], places: NDArray[np.float64], vertices: NamedVertices, callback: Callback | None
+    ) -> ChartSolution:
+        """The least squares conformal map with vertices of the chart at their places."""
+        factorized, own = self._checked(callback), self.mesh.vertices
+        if self._pinned is None or not np.array_equal(self._pinned.pins, pins):
+            self._pinned = PinnedMapper.of(factorized, pins, Progress(callback))
+        found = self._pinned.map(places)
+        z = np.ascontiguousarray(found.uv).view(np.complex128).reshape(-1)[: len(own)]
+        notes = vertices.of_free(own) + _crossings_told(found)
+        used = vertices_used(FreeOptions(), own)
+        return ChartSolution(map=found, error=None, notes=notes, z=z, signed=self._signed(z), used=used, held=True)
+
+    def _signed(self, z: Complex) -> NDArray[np.float64]:
+        return signed_double_areas(planar_sides(z, self.mesh.F.T.astype(np.int32)))
 
     def _mapped(
         self, shape: Shape, options: ChartOptions, vertices: NamedVertices, callback: Callback | None
@@ -94,9 +115,7 @@ class ChartMapper:
         if shape is Shape.FREE:
             notes = vertices.of_free(own)
             free = mapped_free(factorized, options.free, Progress(callback))
-            if len(free.crossings):
-                notes.append(f"its boundary crosses itself {len(free.crossings)} times")
-            return free, vertices_used(options.free, own), notes
+            return free, vertices_used(options.free, own), notes + _crossings_told(free)
         if shape is Shape.RECTANGLE:
             rectangle, notes = vertices.of_rectangle(options.rectangle, own, factorized.boundary)
             return mapped_rectangle(factorized, rectangle, Progress(callback)), vertices_used(rectangle, own), notes
@@ -152,6 +171,11 @@ class ChartMapper:
             return DegenerateFaceError(f"{told} All their vertices lie on one line; there is nothing to map.", faces)
         ways = (Remedy("laplacian", Laplacian.AUTO), "merge their coincident vertices")
         return DegenerateFaceError(told, faces, ways)
+
+
+def _crossings_told(free: FreeMap) -> list[str]:
+    count = len(free.crossings)
+    return [f"its boundary crosses itself {count} time{'s' * (count != 1)}"] if count else []
 
 
 def _failed(error: ConformalUVError) -> ChartSolution:

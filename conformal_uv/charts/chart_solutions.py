@@ -27,8 +27,8 @@ class ChartSolutions:
     z : (n,) complex128
         Positions of the vertices of all charts, each chart in its own plane as `ChartSolution` has it; 0 where nothing
         was mapped.
-    mapped, is_disk : (c,) bool
-        Charts that have a map, and those whose map is that of a disk.
+    mapped, is_disk, held : (c,) bool
+        Charts that have a map, those whose map is that of a disk, and those that pinned corners hold where they are.
     alone : dict of ChartSolution
         Of the charts that were solved one by one.
     """
@@ -37,7 +37,7 @@ class ChartSolutions:
         self._meshes = meshes
         count = len(meshes.area)
         self.z = np.zeros(len(meshes.V), dtype=np.complex128)
-        self.mapped, self.is_disk = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
+        self.mapped, self.is_disk, self.held = (np.zeros(count, dtype=bool) for _ in range(3))
         self.alone: dict[int, ChartSolution] = {}
         self._together: list[DiskMaps | FreeMaps] = []
         self._where = np.full((count, 2), -1, dtype=np.int64)  # the maps that a chart is among, and its place there
@@ -49,6 +49,7 @@ class ChartSolutions:
             first = self._meshes.first_vertex[number]
             self.z[first : first + len(solution.z)] = solution.z
             self.mapped[number], self.is_disk[number] = True, isinstance(solution.map, DiskMap)
+            self.held[number] = solution.held
 
     def take(self, maps: DiskMaps | FreeMaps) -> None:
         """The maps of several charts, those that are good."""

@@ -32,7 +32,7 @@ def pack_together(
     results : sequence of Unwrapped
         Made with ``place="disk"``.
     wanted : sequence of (c,) bool
-        The charts of each result that are to be placed, mapped ones.
+        The charts of each result that are to be placed, mapped ones; those that pinned corners hold stay.
     margin : float, optional
         Between charts and to the sides, as in `unwrap`.
     margin_method, image_size, pack_rotation, pack_shape, keep_scale, tile
@@ -53,8 +53,8 @@ def pack_together(
     True
     """
     where = PlaceOptions(margin=margin, **options)
-    taken = [np.flatnonzero(mask) for mask in wanted]
     lists = [result.charts for result in results]
+    taken = [np.flatnonzero(mask & ~charts.held) for mask, charts in zip(wanted, lists, strict=True)]
     area = np.concatenate([charts.surface_areas()[own] for charts, own in zip(lists, taken, strict=True)])
     largest = 1.0 if where.keep_scale else float(area.max(initial=0.0))
     image = [charts.image_areas(result.uv)[own] for result, charts, own in zip(results, lists, taken, strict=True)]

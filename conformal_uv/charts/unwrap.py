@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from numpy.typing import ArrayLike
 
@@ -28,6 +28,7 @@ def unwrap(
     method: str = "auto",
     objective: str | None = None,
     pins: Vertices = None,
+    pinned_uv: Mapping[int, ArrayLike] | None = None,
     pin_mode: str | None = None,
     center: Vertices = None,
     boundary_vertex: Vertices = None,
@@ -91,6 +92,10 @@ def unwrap(
         order of its boundary from the one named first; a note tells where that is another order. A set of pins is an
         offer, and has no order: charts with another number of them on their boundary are not pinned and say so in
         their notes, and rectangles are turned upright.
+    pinned_uv : mapping of int to (2,) floats, optional
+        Places of polygon corners, rows of ``Unwrapped.uv``. A chart with a free boundary in which two vertices or more
+        have one, not all the same, is mapped with these where they are, as by `pinned_map`, and is not turned, refined
+        or placed; others do not use them.
     center, boundary_vertex : vertices, optional
         Each is used by the chart in whose interior, or on whose boundary, it lies; of several in one chart the first.
     rotation : float
@@ -178,6 +183,7 @@ def unwrap(
         method=method,
         objective=objective,
         pins=pins,
+        pinned_uv=pinned_uv,
         pin_mode=pin_mode,
         center=center,
         boundary_vertex=boundary_vertex,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from typing import Any
 
@@ -25,6 +25,7 @@ from .disks import made_disks
 from .named_vertices import NamedVertices
 from .outlines import Outlines, joint_outlines, unit_disk
 from .packing import ChartShape, Placements, placements
+from .pinned_corners import PinnedCorners, pinned_corners
 from .splitting import split_into_charts
 from .unwrapped import Unwrapped
 
@@ -84,6 +85,7 @@ class Unwrapper:
         self,
         *,
         pins: Vertices = None,
+        pinned_uv: Mapping[int, ArrayLike] | None = None,
         center: Vertices = None,
         boundary_vertex: Vertices = None,
         rotation: float = 0.0,
@@ -104,10 +106,11 @@ class Unwrapper:
             vertex_list("pins", pins, self._used),
             ordered=not isinstance(pins, set | frozenset),
         )
+        pinned = PinnedCorners(*pinned_corners(pinned_uv, self._corner_count), self._split, self._meshes)
         progress = ChartProgress(callback)
         progress.report("charts", SPLITTING)
         progress.weigh(self._meshes.weights())
-        solutions = self._solved(shapes.of_charts(self._split.count), how, vertices, progress)
+        solutions = self._solved(shapes.of_charts(self._split.count), how, vertices, pinned, progress)
         self._check_used(vertices, solutions, offered=isinstance(pins, set | frozenset))
         progress.report("packing", PLACING)
         result = self._assembled(solutions, where)
@@ -115,11 +118,17 @@ class Unwrapper:
         return result
 
     def _solved(
-        self, shapes: list[Shape], how: ChartOptions, vertices: NamedVertices, progress: ChartProgress
+        self,
+        shapes: list[Shape],
+        how: ChartOptions,
+        vertices: NamedVertices,
+        pinned: PinnedCorners,
+        progress: ChartProgress,
     ) -> ChartSolutions:
         """All charts mapped: small ones together, the others and what is left of those one by one."""
         solutions = ChartSolutions(self._meshes)
-        together = np.ones(len(shapes), dtype=bool)
+        held = pinned.charts & np.array([one is Shape.FREE for one in shapes], dtype=bool)
+        together = ~held
         if vertices:
             together &= ~self._meshes.with_any(
                 np.concatenate((vertices.center, vertices.boundary_vertex, vertices.pins))
@@ -131,7 +140,8 @@ class Unwrapper:
         callback = progress if progress.wanted else None
         for number in np.flatnonzero(~solutions.mapped).tolist():
             progress.start(number)
-            solutions.put(number, self._mapper(number).solve(shapes[number], how, vertices, callback))
+            pins = pinned.of_chart(number) if held[number] else None
+            solutions.put(number, self._mapper(number).solve(shapes[number], how, vertices, callback, pins))
         return solutions
 
     def _mapper(self, number: int) -> ChartMapper:
@@ -162,13 +172,13 @@ class Unwrapper:
         )
 
     def _assembled(self, solutions: ChartSolutions, where: PlaceOptions) -> Unwrapped:
-        """Place the disks and gather the corners' coordinates."""
+        """Place the charts that nothing holds and gather the corners' coordinates."""
         surface, split, meshes = self._split.surface, self._split, self._meshes
-        mapped = solutions.mapped
+        mapped, loose = solutions.mapped, solutions.mapped & ~solutions.held
         area = squared_units(meshes.area, meshes.unit) if where.keep_scale else meshes.area
-        found = placements(where, area[mapped], solutions.image_areas()[mapped], self._outlines(solutions))
+        found = placements(where, area[loose], solutions.image_areas()[loose], self._outlines(solutions, loose))
         placed = Placements.untouched(split.count)
-        placed.put(mapped, found)
+        placed.put(loose, found)
         own = np.flatnonzero(meshes.site[: meshes.first_vertex[-1]] < len(surface.vertex_of_site))
         chart = meshes.chart_of_vertex[own]
         z: NDArray[np.complex128] = np.zeros(len(surface.vertex_of_site), dtype=np.complex128)
@@ -180,19 +190,19 @@ class Unwrapper:
         done = np.append(mapped, False)[chart_of_face]
         return Unwrapped(uv, chart_of_face, done, ChartList(split, meshes, solutions, placed))
 
-    def _outlines(self, solutions: ChartSolutions) -> Outlines | list[ChartShape] | None:
-        """What covers each mapped chart, of disks the whole disk; None where all are disks."""
-        meshes, mapped = self._meshes, solutions.mapped
-        disks = solutions.is_disk[mapped]
+    def _outlines(self, solutions: ChartSolutions, loose: NDArray[np.bool_]) -> Outlines | list[ChartShape] | None:
+        """What covers each loose chart, of disks the whole disk; None where all are disks."""
+        meshes = self._meshes
+        disks = solutions.is_disk[loose]
         if disks.all():
             return None
         if not disks.any():
-            number = np.where(mapped, np.cumsum(mapped) - 1, -1)[meshes.chart_of_face]
+            number = np.where(loose, np.cumsum(loose) - 1, -1)[meshes.chart_of_face]
             return joint_outlines(solutions.z, meshes.F_of_all[number >= 0].T, number[number >= 0])
         disk = unit_disk()
         return [
             disk
             if solutions.is_disk[number]
             else (solutions.z[meshes.first_vertex[number] : meshes.first_virtual[number]], meshes[number].F.T)
-            for number in np.flatnonzero(mapped).tolist()
+            for number in np.flatnonzero(loose).tolist()
         ]

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import DisconnectedError, OptionError, TopologyError
 from ..mesh.surface import Surface
-from ..operators.edge_laplacian import edge_laplacian
+from ..operators.edge_laplacian import EdgeLaplacian, edge_laplacian
+from ..operators.factorized_disk import FactorizedDisk
 from ..operators.orientation_sign import flipped_faces
 from ..operators.polygon_crossings import polygon_crossings
 from ..optimize import Status
@@ -86,17 +87,32 @@ class PinnedMapper:
         progress = Progress(callback)
         progress("checks", 0.0)
         kind = Laplacian.of("laplacian", laplacian)
-        self.surface = surface = Surface.from_arrays(V, F)
+        surface = Surface.from_arrays(V, F)
         if surface.pieces > 1:
             raise DisconnectedError(f"The mesh has {surface.pieces} pieces that do not touch; map each by itself.")
         if not surface.loops:
             raise TopologyError("The surface is closed and has no map to the plane; cut it open along seams.")
         surface.require_extent()
-        self.pins = _checked_pins(pins, surface.n)
+        own = _checked_pins(pins, surface.n)
         progress("assembly", 0.0)
         weighted = edge_laplacian(surface.corners, surface.edges, surface.geometry, surface.n, kind)
-        self._laplacian = weighted.kind
-        self._solved = HeldConformal(surface, weighted, self.pins, backend, progress)
+        self._take(surface, weighted, own, backend, progress)
+
+    @classmethod
+    def of(cls, factorized: FactorizedDisk, pins: ArrayLike, progress: Progress) -> PinnedMapper:
+        """A mapper of a surface that was checked for other shapes, too."""
+        mapper = cls.__new__(cls)
+        surface = factorized.surface
+        mapper._take(
+            surface, factorized.laplacian(progress), _checked_pins(pins, surface.n), factorized.asked, progress
+        )
+        return mapper
+
+    def _take(
+        self, surface: Surface, weighted: EdgeLaplacian, pins: NDArray[np.int64], backend: str, progress: Progress
+    ) -> None:
+        self.surface, self.pins, self._laplacian = surface, pins, weighted.kind
+        self._solved = HeldConformal(surface, weighted, pins, backend, progress)
 
     def influence(self, pin: int) -> Complex:
         """By how much every vertex (n,) moves, times the move of this pin, the others being where they are.

@@ -41,7 +41,7 @@ class Button:
 
 @pytest.mark.parametrize("shape", ["FREE", "DISK", "RECTANGLE"])
 def test_everywhere_the_same_options_are_drawn(part, shape):
-    layout, chosen = Layout(), part("properties").Options(shape=shape)
+    layout, chosen = Layout(), part("properties").Options(shape=shape, margin_method="PIXELS")
     part("options_layout").draw_options(layout, chosen)
     known = bpy.ops.uv.conformal_unwrap.get_rna_type().properties
     shown = layout.texts("prop")
@@ -49,6 +49,9 @@ def test_everywhere_the_same_options_are_drawn(part, shape):
     every = {name for names in part("properties").SHOWN.values() for name in names} | set(shown)
     left = {name for name in known.keys() if not known[name].is_hidden and name != "rna_type"} - every
     assert not left  # an option that no panel shows
+    layout = Layout()
+    part("options_layout").draw_options(layout, part("properties").Options(shape=shape))
+    assert set(shown) - set(layout.texts("prop")) == {"image_size"}  # margins of pixels alone have an image
 
 
 def test_panels_have_the_order_of_the_menus(part):
@@ -73,14 +76,20 @@ def test_what_is_searched_for_has_one_name(part):
     assert len(set(names)) == len(names) - 1  # the free shape's entry is the operator itself
 
 
-def test_tooltips_say_what_and_when(addon):
+def described_twice(prop):
+    return prop.is_hidden or prop.identifier == "rna_type" or prop.description.count("\n") == 1
+
+
+def test_tooltips_say_what_and_when(part):
     for name in dir(bpy.types):
         if "_OT_conformal_" in name:
             operator = getattr(bpy.types, name)
             assert operator.bl_description.count("\n") == 1, name
-    for prop in bpy.ops.uv.conformal_unwrap.get_rna_type().properties:
-        if not prop.is_hidden and prop.identifier != "rna_type":
-            assert prop.description.count("\n") == 1, prop.identifier
+            prefix, suffix = operator.bl_idname.split(".")
+            for prop in getattr(getattr(bpy.ops, prefix), suffix).get_rna_type().properties:
+                assert described_twice(prop), f"{name}.{prop.identifier}"
+    for tool in part("live_tools").TOOLS:
+        assert tool.bl_description.count("\n") == 1, tool
     described = bpy.types.UV_OT_conformal_unwrap.description(bpy.context, Button_of("DISK"))
     assert described.count("\n") == 1 and "round" in described
 
@@ -93,17 +102,32 @@ def Button_of(shape):  # noqa: N802 - a button's properties
 
 def test_defaults_of_the_preferences_are_the_next_options(part):
     preferences, chosen = part("preferences"), part("operators").chosen_options(bpy.context)
-    defaults = Button()
-    defaults.shape, defaults.method, defaults.place, defaults.margin = "RECTANGLE", "NEWTON", "PACK", 0.25
+    before = {name: getattr(chosen, name) for name in preferences.NAMES}
+    defaults, others = (
+        Button(),
+        {
+            "shape": "RECTANGLE",
+            "method": "NEWTON",
+            "place": "PACK",
+            "margin": 0.25,
+            "margin_method": "PIXELS",
+            "image_size": 2048,
+            "pack_rotation": "ANY",
+            "pack_shape": "BOX",
+        },
+    )
+    vars(defaults).update(others)
     preferences.start_with(defaults, bpy.context)
-    assert (chosen.shape, chosen.method, chosen.place, chosen.margin) == ("RECTANGLE", "NEWTON", "PACK", 0.25)
+    assert {name: getattr(chosen, name) for name in others} == others
     declared = preferences.ConformalUnwrapPreferences.__annotations__
-    assert set(declared) == set(preferences.NAMES) and declared["shape"].keywords["default"] == "FREE"
+    assert set(declared) == set(preferences.NAMES) == set(others)
+    assert declared["shape"].keywords["default"] == "FREE"
     ob = scenes.grid()
     bpy.ops.uv.conformal_unwrap()  # a script has the documented defaults all the same
     uv = scenes.uvs(ob)
     assert abs(((uv - 0.5) ** 2).sum(axis=1).max() - 0.25) < 1e-6  # a disk
-    chosen.shape, chosen.method, chosen.place, chosen.margin = "FREE", "AUTO", "FIT", 0.005
+    for name, value in before.items():
+        setattr(chosen, name, value)
 
 
 def test_presets_come_back(part, tmp_path, monkeypatch):
@@ -128,7 +152,8 @@ def test_shortcuts_are_offered_switched_off(part):
     for name, _, operator, properties, key, modifiers in part("keymaps").OFFERED:
         prefix, suffix = operator.split(".")
         known = getattr(getattr(bpy.ops, prefix), suffix).get_rna_type().properties
-        assert name in {"UV Editor", "Mesh"} and key and modifiers and set(properties) <= set(known.keys())
+        assert name in {"UV Editor", "Mesh"} and set(properties) <= set(known.keys())
+        assert (key == "NONE") == (not modifiers)  # a bare key is taken already
     keyconfig = bpy.context.window_manager.keyconfigs.addon
     if keyconfig is not None:
         made = [item for _, item in part("keymaps")._made]

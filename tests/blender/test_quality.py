@@ -131,6 +131,36 @@ def test_numbers_go_stale(addon, part):
     assert addon.last_result.stale()
 
 
+@pytest.mark.parametrize(
+    ("name", "options", "stale"),
+    [
+        ("uv.conformal_slide", {"center": (0.3, 0.0)}, True),
+        ("uv.conformal_pack", {"margin": 0.1}, True),
+        ("view3d.conformal_overlay", {}, False),
+        ("object.conformal_flatten", {"result": "OBJECT"}, False),
+        ("object.conformal_flatten", {"result": "SHAPE_KEY"}, False),
+    ],
+)
+def test_other_tools_make_numbers_stale_where_they_move_uvs(addon, part, name, options, stale):
+    scenes.grid()
+    bpy.ops.uv.conformal_unwrap()
+    prefix, suffix = name.split(".")
+    assert getattr(getattr(bpy.ops, prefix), suffix)(**options) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    assert addon.last_result.stale() == stale
+    part("staleness").undone()  # the closer look
+    assert addon.last_result.stale() == stale
+
+
+def test_uvs_of_a_sphere_make_numbers_stale(addon):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+    bpy.ops.uv.conformal_unwrap(closed="CUT")
+    for layout, stale in (("NONE", False), ("OCTAHEDRAL", True)):
+        assert bpy.ops.object.conformal_sphere(uv=layout) == {"FINISHED"}
+        bpy.context.view_layer.update()
+        assert addon.last_result.stale() == stale
+
+
 def test_selecting_faces_makes_nothing_stale(addon, part):
     scenes.grid()
     bpy.ops.uv.conformal_unwrap()

@@ -104,7 +104,11 @@ def test_menus_name_the_shapes(addon):
 
 @pytest.mark.parametrize(
     ("shape", "own"),
-    [("DISK", {"method", "center", "use_pins"}), ("FREE", {"refine"}), ("RECTANGLE", {"corner_choice", "use_pins"})],
+    [
+        ("DISK", {"method", "center", "use_pins"}),
+        ("FREE", {"refine", "use_pins"}),
+        ("RECTANGLE", {"corner_choice", "use_pins"}),
+    ],
 )
 def test_the_redo_panel_shows_what_means_something(addon, shape, own):
     shown = Shown(shape=shape, margin_method="FRACTION")
@@ -163,9 +167,9 @@ def test_four_pins_are_the_corners(addon):
     assert not any("pin" in remark for remark in addon.last_result.last().remarks)
     assert abs(measured.tilt(ob, 1)) < 46.0  # upright, by quarters
     before = scenes.shadowed(scenes.uvs(ob))
-    bpy.ops.uv.conformal_unwrap(shape="FREE", use_pins=True)
-    assert scenes.shadowed(scenes.uvs(ob)) == before  # a free boundary takes no pins
-    assert "pinned UVs stay where they are; unpin them" in addon.last_result.last().message
+    bpy.ops.uv.conformal_unwrap(shape="FREE")
+    assert scenes.shadowed(scenes.uvs(ob)) == before  # pinned, and not to be used
+    assert "pin two or more and turn on Use Pins" in addon.last_result.last().message
 
 
 @pytest.mark.parametrize("mode", [scenes.leave, scenes.edit])

@@ -218,4 +218,3 @@ def test_menu_tools_and_keys_come_and_go(addon):
     for tool in tools.TOOLS:
         with open(f"{tool.bl_icon}.dat", "rb") as stored:
             assert stored.read(4) == b"VCO\0"
-    assert all(not item.active for _, item in tools.keymap_items())

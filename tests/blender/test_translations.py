@@ -13,11 +13,6 @@ import pytest
 LOOKED_UP = {"told": 1, "shown": 1, "counted": 2}  # functions of words.py: where their first texts end
 DRAWN = {"label", "operator", "popover", "prop", "menu"}  # Blender looks up what these are given as text
 OUTSIDE = {"command.py", "words.py"}  # the shell's own; the functions themselves
-OF_PACKING = (
-    "Blender's packer left the islands as they were; conformal_uv packed them",
-    "rectangle-packer is not installed; Blender packed the islands",
-    "rectangle-packer is not installed; the islands lie in a grid",
-)
 
 
 @pytest.fixture
@@ -38,9 +33,14 @@ def constants(node, names):
 
 
 def texts_in_code(addon, path: Path) -> set[str]:
-    names = vars(import_module(f"{addon.__name__}.{path.stem}" if path.stem != "__init__" else addon.__name__))
+    names = dict(vars(import_module(f"{addon.__name__}.{path.stem}" if path.stem != "__init__" else addon.__name__)))
     found: set[str] = set()
-    for call in (node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Call)):
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    for node in nodes:  # what functions import when they are called
+        if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module:
+            module = vars(import_module(f"{addon.__name__}.{node.module}"))
+            names |= {alias.asname or alias.name: module.get(alias.name) for alias in node.names}
+    for call in (node for node in nodes if isinstance(node, ast.Call)):
         name = call.func.id if isinstance(call.func, ast.Name) else getattr(call.func, "attr", "")
         if name == "counted":
             given = call.args[1:3]
@@ -64,7 +64,7 @@ def texts_of_classes(addon) -> set[str]:
     for cls in classes(addon):
         found |= {getattr(cls, name, None) for name in ("bl_label", "bl_description", "bl_category")}
         for base in cls.__mro__:
-            for declared in vars(base).get("__annotations__", {}).values():
+            for declared in getattr(base, "__annotations__", {}).values():
                 found |= texts_of_property(getattr(declared, "keywords", {}))
     return {text for text in found if text}
 
@@ -78,8 +78,10 @@ def texts_of_property(keywords) -> set[str]:
 
 def all_texts(addon, folder) -> set[str]:
     files = [path for path in folder.glob("*.py") if path.name not in OUTSIDE]
-    entries = {text for _, text in import_module(f"{addon.__name__}.choices").UNWRAPS}
-    return texts_of_classes(addon).union(OF_PACKING, entries, *(texts_in_code(addon, path) for path in files))
+    choices, menus, tools = (import_module(f"{addon.__name__}.{name}") for name in ("choices", "menus", "live_tools"))
+    entries = {text for _, text in (*choices.UNWRAPS, *menus.OVERLAYS)}
+    entries |= {text for tool in tools.TOOLS for text in (tool.bl_label, tool.bl_description)}
+    return texts_of_classes(addon).union(entries, *(texts_in_code(addon, path) for path in files))
 
 
 def test_german_is_complete(addon, folder):
