@@ -1,4 +1,4 @@
-"""Build everything that is released: the Blender extension's zips, the wheel, the sdist and their checksums.
+"""Build everything that is released: the Blender extension's zips, the wheel, the sdist, the site and their checksums.
 
     python -m tools.release [--output dist] [--bpy-python PYTHON]
     python -m tools.release --platform linux-x64 --python cp311      # one zip alone
@@ -24,6 +24,7 @@ from .errors import ReleaseError
 from .extension_builds import BUILDS, DISTRIBUTION, PLATFORMS, PYTHONS, Build
 from .python_packages import build_packages
 from .reproducible import source_date
+from .site import build_site
 from .versions import agreed_version
 
 REPOSITORY = Path(__file__).resolve().parent.parent
@@ -69,7 +70,7 @@ def release(builds: list[Build], output: Path, wheels: Path, bpy_python: str, *,
         tool.check_distinct(path for path, build in zip(zips, builds, strict=True) if build is not DISTRIBUTION)
         built = zips
         if whole:
-            built = [*zips, *build_packages(REPOSITORY, fresh, date)]
+            built = [*zips, *build_packages(REPOSITORY, fresh, date), build_site(REPOSITORY, version, fresh, date)]
             built.append(write_checksums(built, fresh / "SHA256SUMS"))
         return [Path(shutil.move(path, output / path.name)) for path in built]
 

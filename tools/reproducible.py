@@ -15,7 +15,7 @@ from pathlib import Path
 __all__ = ["rewritten_sdist", "rewritten_wheel", "source_date", "write_zip"]
 
 FIRST = 315532800  # 1980: no zip knows an earlier time
-PACKED = (".whl", ".gz", ".png")
+PACKED = (".whl", ".gz", ".png", ".webp")
 
 
 def source_date(repository: Path) -> int:
