@@ -37,6 +37,12 @@ def compute_texcoord_parametrization_conformal_disk(
     selected_only: bool = False,
     place: str = "fit",
     margin: float | None = None,
+    margin_method: str = "between",
+    image_size: int = 1024,
+    pack_rotation: str = "none",
+    pack_shape: str = "outline",
+    keep_scale: bool = False,
+    tile: int = 1001,
     backend: str = "auto",
     texture: str | PathLike[str] | None = None,
     quality: str = "none",
@@ -88,6 +94,19 @@ def compute_texcoord_parametrization_conformal_disk(
         'fit' and 'pack': in the unit square; 'disk': on the unit disk around (0, 0), one part over the other.
     margin : Float
         Least distance between parts and to the sides of the square; by default none about one, 0.005 for several.
+    margin_method : Enum
+        What the margin is: 'between' parts, as a part of the square's side (default); around each part as in Blender
+        'fraction', 'add' or 'scaled'; or 'pixels' of a square image.
+    image_size : Integer
+        That image's side, pixels.
+    pack_rotation : Enum
+        How parts may be turned to fill the square better: 'none' (default), 'quarters', 'axes', 'any'.
+    pack_shape : Enum
+        What is packed: the 'outline' (default), its 'convex' hull or its 'box'.
+    keep_scale : Boolean
+        Parts keep the size of the surface, and may lie beyond the square.
+    tile : Integer
+        UDIM tile to pack into.
     backend : Enum
         'auto', 'cholmod', 'superlu', 'multigrid'.
     texture : File Name
@@ -134,6 +153,12 @@ def compute_texcoord_parametrization_conformal_disk(
         selected_only=selected_only,
         place=place,
         margin=margin,
+        margin_method=margin_method,
+        image_size=image_size,
+        pack_rotation=pack_rotation,
+        pack_shape=pack_shape,
+        keep_scale=keep_scale,
+        tile=tile,
         backend=backend,
         texture=texture,
         quality=quality,

@@ -30,6 +30,12 @@ def compute_texcoord_parametrization_conformal_free(
     selected_only: bool = False,
     place: str = "fit",
     margin: float | None = None,
+    margin_method: str = "between",
+    image_size: int = 1024,
+    pack_rotation: str = "none",
+    pack_shape: str = "outline",
+    keep_scale: bool = False,
+    tile: int = 1001,
     backend: str = "auto",
     texture: str | PathLike[str] | None = None,
     quality: str = "none",
@@ -50,7 +56,8 @@ def compute_texcoord_parametrization_conformal_free(
         'fit' and 'pack': in the unit square, which a single part fills one way; 'disk': each part so in the middle of
         [-1, 1]^2, one over the other.
     upright, holes, closed, nonmanifold, orientation, repair, laplacian, seams, selected_only, backend, texture, quality
-        As in `compute_texcoord_parametrization_conformal_disk`, and `margin` and `callback` too.
+        As in `compute_texcoord_parametrization_conformal_disk`, and `margin`,
+        `margin_method`, `image_size`, `pack_rotation`, `pack_shape`, `keep_scale`, `tile` and `callback` too.
 
     Returns
     -------
@@ -80,6 +87,12 @@ def compute_texcoord_parametrization_conformal_free(
         selected_only=selected_only,
         place=place,
         margin=margin,
+        margin_method=margin_method,
+        image_size=image_size,
+        pack_rotation=pack_rotation,
+        pack_shape=pack_shape,
+        keep_scale=keep_scale,
+        tile=tile,
         backend=backend,
         texture=texture,
         quality=quality,

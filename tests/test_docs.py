@@ -20,10 +20,11 @@ from conformal_uv.files import MeshFile, write_mesh
 from conformal_uv.samples import mask
 
 NAMES = [str(page.relative_to(REPOSITORY)) for page in pages()]
-# Blocks of Blender run in a process of their own, by tests/blender; here they are only compiled.
-BLENDER = re.compile(r"\bbpy\b|\bblender_addon\b")
+# Blocks of Blender and of MPI run in processes of their own, by tests/blender and tests/test_distributed.py, and here
+# there is no cluster that Slurm manages: they are only compiled.
+ELSEWHERE = re.compile(r"\bbpy\b|\bblender_addon\b|\bdistributed_disk_map\b|\bdask_jobqueue\b")
 # What installs, builds, tests or measures for minutes; CI and other tests run these.
-NOT_HERE = re.compile(r"pip install|apt-get|pytest|python|pre-commit|blender|coverage|sha256sum")
+NOT_HERE = re.compile(r"pip install|apt-get|mpiexec|conda |pytest|python|pre-commit|blender|coverage|sha256sum")
 
 
 def has(name: str, language: str) -> bool:
@@ -88,7 +89,7 @@ def test_blocks_run(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
                 if module != "bpy":
                     pytest.importorskip(module)
             code = compile("\n" * (block.line - 1) + block.code, str(REPOSITORY / name), "exec")
-            if not BLENDER.search(block.code):
+            if not ELSEWHERE.search(block.code):
                 exec(code, known)
         elif block.language == "sh" and begins_anew(name):
             if shutil.which("bash") is None:

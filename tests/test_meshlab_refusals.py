@@ -121,7 +121,8 @@ def test_registered_it_is_a_filter_like_pymeshlabs_own(face_of_mask):
 
 
 UNWRAPS = {
-    "V", "polygons", "selection", "rotation", "tolerance", "relative_tolerance", "max_iterations", "outer_loop", "shape"
+    "V", "polygons", "selection", "rotation", "tolerance", "relative_tolerance", "max_iterations", "outer_loop",
+    "shape", "pinned_uv",
 }  # fmt: skip
 DISKS = {"method", "objective", "pins", "pin_mode", "center", "balance", "boundary_vertex"}
 OWN = {"ms", "selected_only", "texture", "quality"}

@@ -149,7 +149,8 @@ def _line_search(
     slope = float(energy.gradient @ direction)
     norm = np.linalg.norm(tangent.project(energy.gradient))
     degrees = energy.problem.Lbb.diagonal()
-    noise = float(EPS) * (64.0 * (abs(energy.value) + np.pi) + 4.0 * float(np.linalg.norm(degrees)))
+    solved = max(64.0 * float(EPS), 4.0 * energy.problem.accuracy)
+    noise = solved * (abs(energy.value) + np.pi) + 4.0 * float(EPS) * float(np.linalg.norm(degrees))
 
     def move(length: float) -> BoundaryEnergy:
         theta = gauge.restore(in_order(energy.theta, length * direction))

@@ -14,7 +14,7 @@ from ..operators.laplacian import cotangent_weights
 from ..operators.neumann_strip import RINGS
 from ..options import DistributedSolver
 from .checks import Boundary
-from .krylov import KrylovSystem
+from .krylov import TOLERANCE, KrylovSystem
 from .part import Part
 from .strip import SharedStrip, gathered_strip
 
@@ -135,6 +135,11 @@ class DistributedDirichlet:
         self._lbi = self._lib.T.tocsr()
         i, j = part.ranks.joined(np.concatenate(pairs)).T
         self.Lbb = csr_array((part.ranks.joined(np.concatenate(between)), (i, j)), shape=(nb, nb))
+
+    @property
+    def accuracy(self) -> float:
+        """Relative error of a solution."""
+        return TOLERANCE
 
     @cached_property
     def boundary_inverse(self) -> SharedStrip:

@@ -16,6 +16,7 @@ from .linear_system import LowerTriangle
 
 __all__ = ["Cholmod", "SuperLU"]
 
+EPS = float(np.finfo(np.float64).eps)
 FAILURES = (ArithmeticError, MemoryError, RuntimeError, TypeError, ValueError)  # what the libraries raise
 KEEP_ORDER = {"nmethods": 1}  # the given order, without trying others
 MANY = 20_000  # unknowns, from which on sparse right-hand sides are the faster ones
@@ -26,6 +27,7 @@ class Cholmod:
     """Supernodal Cholesky factorization by CHOLMOD. Symbolic and numeric work can not be interrupted."""
 
     backend = "cholmod"
+    accuracy = EPS
 
     def __init__(self, matrix: LowerTriangle, progress: Progress, order: NDArray[np.int32] | None) -> None:
         from cvxopt import cholmod, spmatrix
@@ -111,6 +113,7 @@ class SuperLU:
     """LU factorization by SuperLU in its symmetric mode, without pivoting. It can not be interrupted."""
 
     backend = "superlu"
+    accuracy = EPS
 
     def __init__(self, matrix: LowerTriangle, progress: Progress, order: NDArray[np.int32] | None) -> None:
         n = matrix.n

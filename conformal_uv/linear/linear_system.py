@@ -59,6 +59,7 @@ class LinearSolver(Protocol):
     """A matrix made ready to be solved with."""
 
     backend: str
+    accuracy: float  # of a solution, relatively, in the energy norm
 
     def solve(self, rhs: NDArray[np.float64]) -> NDArray[np.float64]:
         """Solution for right-hand sides (n,) or (n, k)."""

@@ -70,6 +70,7 @@ class Multigrid:
     """
 
     backend = "multigrid"
+    accuracy = TOLERANCE
 
     def __init__(self, matrix: LowerTriangle, progress: Progress) -> None:
         require_pyamg()

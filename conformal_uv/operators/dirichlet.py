@@ -19,6 +19,7 @@ from .neumann_strip import NeumannStrip
 
 __all__ = ["DirichletProblem", "interior_matrix"]
 
+EPS = float(np.finfo(np.float64).eps)
 FEW = 2000  # interior vertices, which the libraries order as fast
 WIDE_SPREAD = 1e6  # of the largest weight over the median
 # Largest and smallest weight over the median where weights spread so wide that Lii is singular in doubles: vertices
@@ -116,6 +117,11 @@ class DirichletProblem:
         d = np.arange(nb)
         values = np.concatenate((w, w, self._degree[self.boundary]))
         self.Lbb = csr_array((values, (np.concatenate((i, j, d)), np.concatenate((j, i, d)))), shape=(nb, nb))
+
+    @property
+    def accuracy(self) -> float:
+        """Relative error of a solution; rounding, where there is a factorization."""
+        return EPS if self._solver is None else self._solver.accuracy
 
     @cached_property
     def boundary_inverse(self) -> NeumannStrip:
