@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from conformal_uv.disk.angle_steps import gaps, in_order
 from conformal_uv.disk.gauge import CentreGauge
-from conformal_uv.disk.harmonic_measure import CentredMeasure, _balanced, angles_of_measure
+from conformal_uv.disk.harmonic_measure import CentredMeasure, angles_of_measure, balanced_measure
 from conformal_uv.mesh import PolygonMesh, Surface
 from conformal_uv.operators.laplacian import intrinsic_geometry
 from conformal_uv.optimize import augmented_lagrangian, truncated_cg
@@ -107,12 +107,12 @@ def test_octahedral_corners_and_equator() -> None:
 def test_a_vertex_with_half_of_the_measure_is_not_centred_on() -> None:
     """No Moebius map of the disk brings to 0 what one boundary vertex sees half of."""
     theta = np.array([0.0, 1.0, 3.0, 5.0])
-    heavy = _balanced(CentredMeasure(7, np.array([0.5, 0.2, 0.2, 0.1]), theta))
+    heavy = balanced_measure(CentredMeasure(7, np.array([0.5, 0.2, 0.2, 0.1]), theta))
     assert heavy.centre is None and heavy.vertex_measure.sum() == pytest.approx(1.0)
     arcs = np.array([1.0, 2.0, 2.0, 2.0 * np.pi - 5.0])
     np.testing.assert_allclose(heavy.vertex_measure, (arcs + np.roll(arcs, 1)) / (4.0 * np.pi))
     light = CentredMeasure(7, np.array([0.45, 0.25, 0.2, 0.1]), theta)
-    assert _balanced(light) is light
+    assert balanced_measure(light) is light
 
 
 def test_angles_where_all_measure_is_lost() -> None:

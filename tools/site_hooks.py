@@ -1,4 +1,5 @@
-"""What the site does beyond MkDocs: formulas become MathML, files beside docs/ that pages link to come along."""
+"""What the site does beyond MkDocs: formulas become MathML, files beside docs/ that pages link to come along, and the
+start page shows a map that can be dragged."""
 
 from __future__ import annotations
 
@@ -6,11 +7,15 @@ import posixpath
 import re
 from html import unescape
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from latex2mathml.converter import convert
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
+
+import conformal_uv as cuv
+from conformal_uv.samples import mask
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>', re.DOTALL)
@@ -33,9 +38,18 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     }
     log = (REPOSITORY / "CHANGELOG.md").read_text(encoding="utf-8").replace("](docs/", "](")
     files.append(File.generated(config, "changelog.md", content=log))
+    files.append(File.generated(config, "demo.html", content=demo()))
     for target in sorted(found):
         files.append(File.generated(config, f"files/{target}", content=(REPOSITORY / target).read_bytes()))
     return files
+
+
+def demo() -> bytes:
+    """The page that `disk --html` writes, of a mask."""
+    with TemporaryDirectory() as folder:
+        page = Path(folder) / "demo.html"
+        cuv.disk_map(*mask(6000)).to_html(page, title="A mask and its disk")
+        return page.read_bytes()
 
 
 def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:
