@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import io
+import re
 import shutil
 import tarfile
 import tomllib
@@ -13,6 +15,7 @@ import pytest
 
 from conformal_uv import __version__
 from tools import build_extension, extension_manifest, release, reproducible
+from tools.conda_recipe import write_recipe
 from tools.errors import ReleaseError
 from tools.extension_builds import BUILDS, DISTRIBUTION, Build
 from tools.extension_files import extension_files
@@ -211,3 +214,27 @@ def test_checksums_are_those_that_sha256sum_reads(tmp_path: Path) -> None:
         "ca978112ca1bbdcafac231b39a23dc4da786eff8147c4e72b9807785afee48bb  a\n"
         "3e23e8160039594a33894f6564e1b1348bbd7a0088d42c4acb73eeaed59c009d  b\n"
     )
+
+
+def test_the_conda_recipe_asks_for_what_pip_asks_for(tmp_path: Path) -> None:
+    sdist = tmp_path / "conformal_uv-1.2.3.tar.gz"
+    sdist.write_bytes(b"source")
+    text = write_recipe(ROOT, "1.2.3", sdist, tmp_path / "meta.yaml").read_text()
+    assert 'set version = "1.2.3"' in text and f"url: {sdist.name}" in text
+    assert hashlib.sha256(b"source").hexdigest() in text
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    run = text[text.index("  run:") : text.index("test:")].split("    - ")[1:]
+    names = {line.split()[0].replace("_", "-") for line in run}
+    assert names == {"python", *(re.match(r"[a-z-]+", one)[0] for one in project["dependencies"])}
+    assert all(re.fullmatch(r"\S+ [<>=0-9.,]+\s*", line) for line in run)
+    assert all(f"{name} = {place}" in text for name, place in project["scripts"].items())
+
+
+def test_a_requirement_that_is_not_understood_is_told(tmp_path: Path) -> None:
+    (tmp_path / "pyproject.toml").write_text(
+        '[build-system]\nrequires = ["setuptools"]\n[project]\nrequires-python = ">=3.11"\ndescription = ""\n'
+        'license = ""\nscripts = {}\ndependencies = ["a @ file"]\n'
+    )
+    (tmp_path / "a.tar.gz").write_bytes(b"")
+    with pytest.raises(ReleaseError, match="'a @ file', which is not understood"):
+        write_recipe(tmp_path, "1", tmp_path / "a.tar.gz", tmp_path / "meta.yaml")

@@ -1,4 +1,4 @@
-"""Build everything that is released: the Blender extension's zips, the wheel, the sdist, the site and their checksums.
+"""Build everything that is released: the Blender extension's zips, the Python package, the site and their checksums.
 
     python -m tools.release [--output dist] [--bpy-python PYTHON]
     python -m tools.release --platform linux-x64 --python cp311      # one zip alone
@@ -20,6 +20,7 @@ from pathlib import Path
 
 from .blender_tool import BlenderTool
 from .build_extension import build_extension
+from .conda_recipe import write_recipe
 from .errors import ReleaseError
 from .extension_builds import BUILDS, DISTRIBUTION, PLATFORMS, PYTHONS, Build
 from .python_packages import build_packages
@@ -70,7 +71,9 @@ def release(builds: list[Build], output: Path, wheels: Path, bpy_python: str, *,
         tool.check_distinct(path for path, build in zip(zips, builds, strict=True) if build is not DISTRIBUTION)
         built = zips
         if whole:
-            built = [*zips, *build_packages(REPOSITORY, fresh, date), build_site(REPOSITORY, version, fresh, date)]
+            wheel, sdist = build_packages(REPOSITORY, fresh, date)
+            recipe = write_recipe(REPOSITORY, version, sdist, fresh / f"conformal_uv-{version}-conda.yaml")
+            built = [*zips, wheel, sdist, recipe, build_site(REPOSITORY, version, fresh, date)]
             built.append(write_checksums(built, fresh / "SHA256SUMS"))
         return [Path(shutil.move(path, output / path.name)) for path in built]
 
