@@ -31,7 +31,11 @@ RESULTS = {
     "StoredSphere",
     "UVIslands",
 }
-SHOWN_ELSEWHERE = RESULTS | {"equirectangular", "octahedral"} | ERRORS - {"ConformalUVError"}
+OVER_MPI = {
+    "DistributedDiskMap",
+    "distributed_disk_map",
+}  # docs/scale.md shows them, tests/test_distributed.py runs them
+SHOWN_ELSEWHERE = RESULTS | OVER_MPI | {"equirectangular", "octahedral"} | ERRORS - {"ConformalUVError"}
 
 
 def test_there_are_examples() -> None:
