@@ -62,7 +62,8 @@ def test_picture_of_the_shapes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, 
 
 
 @pytest.mark.parametrize("name", [name for name in FUNCTIONS if name not in SHOWN_ELSEWHERE])
-def test_examples_in_docstrings(name: str) -> None:
+def test_examples_in_docstrings(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # some write files
     item = getattr(cuv, name)
     module = importlib.import_module(item.__module__)
     tests = doctest.DocTestFinder(recurse=False).find(item, name, module=module, globs={})
