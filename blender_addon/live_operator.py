@@ -4,8 +4,8 @@ import json
 
 import bpy
 
+from .dragged import Dragged, drag_refusal
 from .edit_mode import target_objects
-from .libraries import missing_library
 from .mouse import in_uv_editor, passes, pixels_per_uv, redraw, uv_at, window_region
 from .words import shown, told
 
@@ -14,16 +14,7 @@ PRECISE = 0.1  # of the mouse's way while Shift is held
 HELP = "Drag a pin or a selected boundary UV   Shift: precise   Enter: confirm   Esc, right click: cancel"
 
 
-def refusal(context):
-    """Why there is nothing to drag, empty where there may be something."""
-    if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return told("Go to Object Mode or to Edit Mode of a mesh")
-    if not any(ob.data.uv_layers.active for ob in target_objects(context)):
-        return told("Select a mesh object with a UV map")
-    return missing_library()
-
-
-class UV_OT_conformal_live(bpy.types.Operator):
+class UV_OT_conformal_live(Dragged, bpy.types.Operator):
     """Pinned UVs dragged, the island following at once, angles kept"""
 
     bl_idname = "uv.conformal_live"
@@ -55,11 +46,9 @@ class UV_OT_conformal_live(bpy.types.Operator):
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
-    _live = None
-
     @classmethod
     def poll(cls, context):
-        why = refusal(context)
+        why = drag_refusal(context)
         if why:
             cls.poll_message_set(why)
         return not why
@@ -134,12 +123,6 @@ class UV_OT_conformal_live(bpy.types.Operator):
         elif passes(event):
             return {"PASS_THROUGH"}
         return {"RUNNING_MODAL"}
-
-    def cancel(self, context):
-        """Everything back as it was: Esc, or Blender closes the window or loads another file."""
-        if self._live is not None:
-            self._live.restore()
-            self._end(context)
 
     def draw(self, context):
         layout = self.layout

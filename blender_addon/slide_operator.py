@@ -4,8 +4,8 @@ import math
 
 import bpy
 
+from .dragged import Dragged, drag_refusal
 from .edit_mode import target_objects
-from .libraries import missing_library
 from .mouse import in_uv_editor, passes, redraw, uv_at, window_region
 from .typed_numbers import TypedNumbers
 from .words import shown, told
@@ -17,16 +17,7 @@ HELP = (
 )
 
 
-def refusal(context):
-    """Why there is nothing to slide, empty where there may be something."""
-    if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return told("Go to Object Mode or to Edit Mode of a mesh")
-    if not any(ob.data.uv_layers.active for ob in target_objects(context)):
-        return told("Select a mesh object with a UV map")
-    return missing_library()
-
-
-class UV_OT_conformal_slide(bpy.types.Operator):
+class UV_OT_conformal_slide(Dragged, bpy.types.Operator):
     """A disk's middle dragged elsewhere, and the disk turned, angles kept"""
 
     bl_idname = "uv.conformal_slide"
@@ -63,7 +54,7 @@ class UV_OT_conformal_slide(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        why = refusal(context)
+        why = drag_refusal(context)
         if why:
             cls.poll_message_set(why)
         return not why
@@ -137,20 +128,12 @@ class UV_OT_conformal_slide(bpy.types.Operator):
             return {"PASS_THROUGH"}
         return {"RUNNING_MODAL"}
 
-    def cancel(self, context):
-        """Everything back as it was: Esc, or Blender closes the window or loads another file."""
-        if self._live is not None:
-            self._live.restore()
-            self._end(context)
-
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.prop(self, "center")
         layout.prop(self, "rotation")
-
-    _live = None
 
     def _start(self, context, chosen, grip):
         from .disks import circle, in_disk
@@ -178,11 +161,6 @@ class UV_OT_conformal_slide(bpy.types.Operator):
             self._slide.drag((here - self._last) * (PRECISE if event.shift else 1.0))
             self._show(context)
         self._last = here
-
-    def _confirmed(self, event):
-        if event.type in {"RET", "NUMPAD_ENTER"}:
-            return event.value == "PRESS"
-        return event.type == "LEFTMOUSE" and event.value == ("RELEASE" if self._by_press else "PRESS")
 
     def _show(self, context):
         """Write and draw the present state."""

@@ -3,16 +3,16 @@
 import bpy
 from mathutils import Euler, Matrix
 
+from .dragged import Dragged, drag_refusal
 from .edit_mode import target_objects
 from .mouse import in_uv_editor, passes, redraw, uv_at, window_region
-from .slide_operator import refusal
 from .words import counted, shown, told
 
 STEP, PRECISE = 0.1, 0.1  # logarithm of the scale of a notch of the wheel; of everything while Shift is held
 HELP = "Drag: turn   Wheel: magnify here   Shift: precise   Enter, click: confirm   Esc, right click: cancel"
 
 
-class UV_OT_conformal_sphere_slide(bpy.types.Operator):
+class UV_OT_conformal_sphere_slide(Dragged, bpy.types.Operator):
     """A mesh's conformal sphere turned, and magnified where the mouse is, angles kept"""
 
     bl_idname = "uv.conformal_sphere_slide"
@@ -41,11 +41,9 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
-    _live = None
-
     @classmethod
     def poll(cls, context):
-        why = refusal(context)
+        why = drag_refusal(context)
         if why:
             cls.poll_message_set(why)
         return not why
@@ -123,23 +121,12 @@ class UV_OT_conformal_sphere_slide(bpy.types.Operator):
             return {"PASS_THROUGH"}
         return {"RUNNING_MODAL"}
 
-    def cancel(self, context):
-        """Everything back as it was: Esc, or Blender closes the window or loads another file."""
-        if self._live is not None:
-            self._live.restore()
-            self._end(context)
-
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.prop(self, "toward")
         layout.prop(self, "rotation")
-
-    def _confirmed(self, event):
-        if event.type in {"RET", "NUMPAD_ENTER"}:
-            return event.value == "PRESS"
-        return event.type == "LEFTMOUSE" and event.value == ("RELEASE" if self._by_press else "PRESS")
 
     def _show(self, context):
         """Write the present state, and tell it."""

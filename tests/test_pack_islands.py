@@ -7,6 +7,7 @@ import pytest
 from polygon_shapes import grid, side_by_side
 
 import conformal_uv as cuv
+from conformal_uv.charts.outlines import chart_outlines, joint_outlines
 
 
 def squares(count, size=1.0):
@@ -89,3 +90,21 @@ def test_options_are_checked():
     for wrong in ({"margin_method": "add", "margin": -0.1}, {"margin_method": "pixels", "margin": 512}):
         with pytest.raises(cuv.OptionError, match="margin"):
             cuv.pack_islands([mesh], [uv], **wrong)
+
+
+def test_outlines_of_charts_that_share_arrays_are_those_of_each():
+    """Triangles in any order; positions of no triangle do not count."""
+    rng = np.random.default_rng(6)
+    z = rng.normal(size=40) + 1j * rng.normal(size=40)
+    corners, owner = np.arange(36).reshape(12, 3), np.repeat([0, 1, 2], [3, 4, 5])
+    turn = rng.permutation(12)
+    joint = joint_outlines(z, corners[turn].T, owner[turn])
+    each = chart_outlines([(z[:9], corners[:3].T), (z[9:21], corners[3:7].T - 9), (z[21:36], corners[7:].T - 21)])
+    np.testing.assert_allclose(joint.low, each.low)
+    np.testing.assert_allclose(joint.size, each.size)
+    assert (np.diff(joint.owner) >= 0).all()
+    for number in range(3):
+        ours, theirs = (
+            np.sort_complex(one.z[one.corners[:, one.owner == number]].reshape(-1)) for one in (joint, each)
+        )
+        np.testing.assert_allclose(ours, theirs)
