@@ -116,7 +116,7 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
         middle = 0.5 * (flat.mesh.V.min(axis=0) + flat.mesh.V.max(axis=0))
         used = V[flat.vertex]
         positions[flat.vertex] = flat.mesh.V - middle + 0.5 * (used.min(axis=0) + used.max(axis=0))
-        with last_result.own_change(context):
+        with last_result.own_change():
             write_shape_key(ob, SHAPE_KEY, positions)
         return ""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Thread
 from typing import TYPE_CHECKING
@@ -17,6 +17,7 @@ SECONDS = 0.1  # between two looks for them
 
 _kept: list[UnwrapResult] = []
 _measuring: list[Thread] = []
+_doubts: list[Callable[[], bool]] = []
 _state = {"own": 0, "stale": False}
 
 
@@ -24,6 +25,7 @@ def keep(result: UnwrapResult, attended: bool = False) -> None:
     """Show this one from now on. Where somebody attends, its numbers are measured in a thread."""
     _kept[:] = [result]
     _measuring.clear()
+    _doubts.clear()
     _state["stale"] = False
     if attended:
         thread = Thread(target=result.measure, name="conformal_uv numbers", daemon=True)
@@ -48,11 +50,19 @@ def stale() -> bool:
     """Whether its meshes or UVs were changed since, or are gone."""
     result = last()
     gone = result is not None and any(ob.name not in bpy.data.objects for ob in result.objects)
+    if _doubts:
+        set_stale(_doubts[0]())
     return gone or _state["stale"]
+
+
+def doubt(is_stale: Callable[[], bool]) -> None:
+    """Something was changed: look closer when somebody asks."""
+    _doubts[:] = [is_stale]
 
 
 def set_stale(stale: bool) -> None:
     """Say so, and have panels drawn again."""
+    _doubts.clear()
     if stale != _state["stale"]:
         _state["stale"] = stale
         _redraw()
@@ -62,19 +72,18 @@ def forget() -> None:
     """Show none."""
     _kept.clear()
     _measuring.clear()
+    _doubts.clear()
 
 
 @contextmanager
-def own_change(context: bpy.types.Context) -> Iterator[None]:
+def own_change() -> Iterator[None]:
     """Changes within the block are the add-on's own: they do not make the result stale."""
     _state["own"] += 1
     try:
         yield
-        if bpy.app.background:
-            context.view_layer.update()  # Blender tells of changes only then
     finally:
         if bpy.app.background:
-            _own_change_told()
+            _own_change_told()  # Blender tells of changes at any time after this: then they are doubts
         else:
             # In the next turn of the main loop, when Blender has told of them.
             bpy.app.timers.register(_own_change_told, persistent=True)

@@ -95,7 +95,7 @@ class UV_OT_conformal_unwrap(UnwrapProperties, InBackground, bpy.types.Operator)
             self.only_selected_uvs = follows_uv_selection(context)
         expected, self._solved = (self._solved or (None, None))[1], None
         try:
-            with last_result.own_change(context):
+            with last_result.own_change():
                 result = unwrap_objects(context, target_objects(context), Options.of(self), expected=expected)
         except OptionError as error:
             self.report({"ERROR"}, str(error))
@@ -170,7 +170,7 @@ class _Selects:
         """Select the faces that the function finds in a mesh; how many there are."""
         from .face_selection import select_faces
 
-        with last_result.own_change(context):
+        with last_result.own_change():
             # Before: among vertices, Edit Mode would take in every face whose corners are selected.
             context.tool_settings.mesh_select_mode = (False, False, True)
             return select_faces(context, faces_of)

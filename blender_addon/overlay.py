@@ -65,7 +65,7 @@ class VIEW3D_OT_conformal_overlay(bpy.types.Operator):
 
     def execute(self, context):
         objects = [ob for ob in target_objects(context) if ob.data.library is None]
-        with last_result.own_change(context), object_mode(context):
+        with last_result.own_change(), object_mode(context):
             have_colors = [self._show(ob.data) for ob in objects]
         if self.quantity == "NONE":
             restore_views()

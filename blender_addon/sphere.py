@@ -83,7 +83,7 @@ class OBJECT_OT_conformal_sphere(InBackground, bpy.types.Operator):
             self.report({"WARNING"}, told("The mesh or its selection was changed meanwhile; nothing was written"))
             return {"CANCELLED"}
         solve(parts, self.method.lower())
-        with last_result.own_change(context) if self.uv == "NONE" else nullcontext():  # else UVs are others now
+        with last_result.own_change() if self.uv == "NONE" else nullcontext():  # else UVs are others now
             reasons = [write(ob, part, self.uv) for ob, part in zip(objects, parts, strict=True)]
         failures = [f"{ob.name}: {why}" for ob, why in zip(objects, reasons, strict=True) if why]
         done = len(objects) - len(failures)

@@ -19,9 +19,12 @@ def changed(scene, depsgraph):
     for update in depsgraph.updates:
         if update.is_updated_geometry and isinstance(update.id, bpy.types.Mesh):
             if update.id.original.session_uid in meshes:
-                last_result.set_stale(True)
                 # In background no timer runs, and one that waits at the end crashes Blender 4.2 on its way out.
-                if not (bpy.app.background or bpy.app.timers.is_registered(_look_closer)):
+                if bpy.app.background:
+                    last_result.doubt(lambda: not _holds(result))
+                    return
+                last_result.set_stale(True)
+                if not bpy.app.timers.is_registered(_look_closer):
                     bpy.app.timers.register(_look_closer, first_interval=SECONDS)
                 return
 
@@ -32,7 +35,7 @@ def undone(*_):
     result = last_result.last()
     if result is None or last_result.changing():
         return
-    with last_result.own_change(bpy.context):  # Blender tells of what undo changed only after this
+    with last_result.own_change():  # Blender tells of what undo changed only after this
         stale = not _holds(result)
     last_result.set_stale(stale)
 
