@@ -395,3 +395,12 @@ def test_charts_grow_around_the_corner_and_what_does_not_fit_is_told():
     assert places is not None
     assert (places.column.tolist(), places.row.tolist()) == ([0, 0, 0], [1, 0, 2])
     assert pack_cells([[small, wide]], 4) is None
+
+
+def test_the_longest_may_be_placed_first():
+    """A strip of five cells and a square of nine: the first placed lies in the corner."""
+    strip = Stencil(np.array([0]), np.array([0]), np.array([5]), 5, 1)
+    square = Stencil(np.arange(3), np.zeros(3, dtype=int), np.full(3, 3), 3, 3)
+    for longest_first, rows in ((False, [3, 0]), (True, [0, 1])):
+        places = pack_cells([[strip, square]], 5, longest_first)
+        assert places is not None and places.row.tolist() == rows

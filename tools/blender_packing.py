@@ -49,7 +49,7 @@ def meshes(islands: list[int]) -> Iterator[tuple[str, Any]]:
     for levels in (0, 1, 2):
         empty()
         bpy.ops.mesh.primitive_monkey_add()
-        ob = bpy.context.object
+        ob = bpy.context.view_layer.objects.active
         edit_all()
         bpy.ops.uv.seams_from_islands(mark_seams=True)
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -108,10 +108,13 @@ def packed(packer: str) -> float:
 
 
 def empty() -> None:
-    """A file without objects."""
+    """No objects any more; the file stays, and with it the window where there is one."""
     import bpy
 
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    for mesh in list(bpy.data.meshes):
+        bpy.data.meshes.remove(mesh)
 
 
 def edit_all() -> None:

@@ -36,7 +36,7 @@ def stencils(found: Footprints) -> list[Stencil]:
     ]
 
 
-def pack_cells(ways: Sequence[Sequence[Stencil]], side: int) -> CellPlaces | None:
+def pack_cells(ways: Sequence[Sequence[Stencil]], side: int, longest_first: bool = False) -> CellPlaces | None:
     """Places in a square of `side` cells; None where charts do not fit so.
 
     No two charts have a cell in common. Each goes to where the square around it and the corner (0, 0) is least, and of
@@ -46,10 +46,15 @@ def pack_cells(ways: Sequence[Sequence[Stencil]], side: int) -> CellPlaces | Non
     ----------
     ways : sequence of sequences of k stencils
         Each chart may lie in any of these ways.
+    longest_first : bool
+        The largest is the one with the longest side, not the one with the most cells.
     """
     count = len(ways[0])
     powers = np.max([[stencil.powers for stencil in way] for way in ways], axis=0)
-    size = np.array([(stencil.stop - stencil.start).sum() for stencil in ways[0]])
+    if longest_first:
+        size = np.square([max(stencil.columns, stencil.rows) for stencil in ways[0]])
+    else:
+        size = np.array([(stencil.stop - stencil.start).sum() for stencil in ways[0]])
     order = np.argsort(-np.round(LIKE * np.log(size)), kind="stable")
     most = np.maximum.accumulate(powers[order][::-1])[::-1].tolist()  # of this chart and those after it
     cells, extent = FreeCells(side, most[0]), 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ MOST_LOOKUPS = 1e10  # bytes looked at; long thin charts are packed on coarser g
 COARSEST = 96
 FIRST_WAYS = 4  # the quarter turns
 FEW = 64  # charts, of which all ways are tried from the first
-MANY = 400  # charts, up to which the opposite corner is tried, too
+MANY = 400  # charts, up to which the opposite corner is tried, too, and a finer grid where none is turned
 HALF_TURN = np.pi
 
 
@@ -47,32 +47,44 @@ class Packed:
     side: float
 
 
+@dataclass(frozen=True)
+class _Pass:
+    """One try: its part of the cells, the ways of turning, the corner and the order in which charts are placed."""
+
+    part: float
+    angles: Real
+    from_far: bool = False
+    longest_first: bool = False
+
+
 def pack_by_outline(outlines: Outlines, spacing: Spacing, angles: Real, enough: float) -> Packed | None:
     """Charts that are turned in one of several ways each, (ways, k); None where no side below `enough` is found."""
-    best, from_far = None, False
-    for part, given, far in _passes(angles):
-        found = _packed(outlines, given, spacing, enough, enough / _cells(outlines, len(given), enough, part), far)
+    best, of_best = None, None
+    for one in _passes(angles):
+        found = _packed(outlines, one, spacing, enough)
         if found is not None and found.side < enough:
-            best, enough, from_far = found, found.side, far
-    if best is not None and len(angles) > 1:
-        fine = enough / _cells(outlines, 1, enough, FINE)
-        found = _packed(outlines, best.angle[None], spacing, enough, fine, from_far)
+            best, of_best, enough = found, one, found.side
+    few = len(angles) > 1 or angles.shape[1] <= MANY
+    if best is not None and of_best is not None and few:
+        fine = replace(of_best, part=FINE, angles=best.angle[None])
+        found = _packed(outlines, fine, spacing, enough)
         best = best if found is None or found.side >= enough else found
     return best
 
 
-def _passes(angles: Real) -> list[tuple[float, Real, bool]]:
-    """Part of the cells, ways, and whether charts grow from the far corner: in turn."""
+def _passes(angles: Real) -> list[_Pass]:
+    """In turn."""
     ways, count = angles.shape
     first = angles[:FIRST_WAYS]
-    if count <= FEW:
-        return [(COARSE, first, False), (1.0, angles, False), (1.0, angles, True)]
-    passes = [(COARSE, first, False), (1.0, first, False)]
-    if count <= MANY:
-        passes += [(1.0, first, True)]
-    if ways > FIRST_WAYS:
-        passes += [(1.0, angles, False)]
-    return passes
+    passes = [_Pass(COARSE, first)]
+    if count > FEW:
+        passes += [_Pass(1.0, first)]
+        passes += [_Pass(1.0, first, from_far=True)] if count <= MANY else []
+        return passes + ([_Pass(1.0, angles)] if ways > FIRST_WAYS else [])
+    if ways == 1:
+        orders = ((from_far, longest) for longest in (False, True) for from_far in (False, True))
+        return passes + [_Pass(FINE, angles, *order) for order in orders]
+    return passes + [_Pass(1.0, angles), _Pass(1.0, angles, from_far=True)]
 
 
 def _cells(outlines: Outlines, ways: int, side: float, part: float) -> int:
@@ -82,16 +94,15 @@ def _cells(outlines: Outlines, ways: int, side: float, part: float) -> int:
     return int(max(COARSEST, min(cells, (4.0 * MOST_LOOKUPS / max(rows, 1.0)) ** (1.0 / 3.0))))
 
 
-def _packed(
-    outlines: Outlines, angles: Real, spacing: Spacing, enough: float, cell: float, from_far: bool
-) -> Packed | None:
+def _packed(outlines: Outlines, one: _Pass, spacing: Spacing, enough: float) -> Packed | None:
     """The same on one grid; from the far corner: all turned by half a turn, there and back."""
-    angles = angles + HALF_TURN if from_far else angles
+    cell = enough / _cells(outlines, len(one.angles), enough, one.part)
+    angles = one.angles + HALF_TURN if one.from_far else one.angles
     ways = [outlines.turned(angle) if angle.any() else outlines for angle in angles]
     gap = spacing.between(enough)
     edge = spacing.at_sides * gap
     found = [stencils(footprints(way, cell, 0.5 * gap / cell)) for way in ways]
-    places = pack_cells(found, int((enough - 2.0 * edge + gap) / cell))
+    places = pack_cells(found, int((enough - 2.0 * edge + gap) / cell), one.longest_first)
     if places is None:
         return None
     chart = np.arange(len(places.way))
@@ -102,6 +113,6 @@ def _packed(
     origin, far = corner + edge * (1.0 + 1j) - low, corner + size
     across, up = far.real.max() + 2.0 * edge, far.imag.max() + 2.0 * edge
     angle, side = angles[places.way, chart], float(max(across, up))
-    if from_far:
+    if one.from_far:
         return Packed(angle - HALF_TURN, across + 1j * up - origin, side)
     return Packed(angle, origin, side)

@@ -120,16 +120,15 @@ def joint_outlines(z: NDArray[np.complex128], corners: NDArray[np.integer], owne
     owner : (m,) int64
         The chart of each, 0 .. k - 1, each of which has one.
     """
-    used, place = np.unique(corners, return_inverse=True)
-    place = place.reshape(3, -1)
-    chart = np.empty(len(used), dtype=np.int64)
-    chart[place] = owner
-    order = np.argsort(chart, kind="stable")
-    number = np.empty(len(used), dtype=np.int64)
-    number[order] = np.arange(len(used))
-    count = np.bincount(chart)
+    chart = np.full(len(z), -1)
+    chart[corners] = owner
+    used = np.flatnonzero(chart >= 0)
+    used = used[np.argsort(chart[used], kind="stable")]
+    number = np.empty(len(z), dtype=np.int64)
+    number[used] = np.arange(len(used))
+    count = np.bincount(chart[used])
     turn = np.argsort(owner, kind="stable")
-    return _in_corners(z[used[order]], np.cumsum(count) - count, count, number[place[:, turn]], owner[turn])
+    return _in_corners(z[used], np.cumsum(count) - count, count, number[corners[:, turn]], owner[turn])
 
 
 def disk_outlines(radius: NDArray[np.float64]) -> Outlines:

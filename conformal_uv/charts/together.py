@@ -87,16 +87,20 @@ def _shapes(results: Sequence[Unwrapped], taken: list[NDArray[np.int64]]) -> Out
             for one, own in zip(results, taken, strict=True)
             for number in own.tolist()
         ]
-    corners, owners, first, before = [], [], 0, 0
+    positions, corners, owners, first, before = [], [], [], 0, 0
     for one, own in zip(results, taken, strict=True):
-        number = np.full(len(one.charts), -1)
+        charts = one.charts
+        number = np.full(len(charts), -1)
         number[own] = before + np.arange(len(own))
-        owner = number[one.charts.chart_of_triangle]
-        corners.append(one.charts.corner[owner >= 0].T + first)
-        owners.append(owner[owner >= 0])
-        first, before = first + len(one.uv), before + len(own)
-    uv = np.ascontiguousarray(np.concatenate([one.uv for one in results]))
-    return joint_outlines(uv.view(np.complex128).reshape(-1), np.concatenate(corners, axis=1), np.concatenate(owners))
+        owner = number[charts.chart_of_triangle]
+        inside, uv = owner >= 0, np.ascontiguousarray(one.uv).view(np.complex128)[:, 0]
+        vertex, z = charts.meshes.F_of_all[inside], np.zeros(len(charts.meshes.V), dtype=np.complex128)
+        z[vertex] = uv[charts.corner[inside]]
+        positions.append(z)
+        corners.append(vertex.T + first)
+        owners.append(owner[inside])
+        first, before = first + len(z), before + len(own)
+    return joint_outlines(np.concatenate(positions), np.concatenate(corners, axis=1), np.concatenate(owners))
 
 
 def _shape(charts: ChartList, number: int, uv: NDArray[np.float64]) -> ChartShape:
