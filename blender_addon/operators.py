@@ -11,7 +11,7 @@ from .edit_mode import follows_uv_selection, target_objects
 from .libraries import missing_library
 from .options_layout import draw_options
 from .properties import Options, UnwrapProperties
-from .words import counted, shown, told
+from .words import counted, on_button, shown, told
 from .worker import BACKEND, under_way
 
 MANY_FACES = 50_000  # from here on the window gets a thread and a progress text
@@ -136,7 +136,7 @@ class UV_OT_conformal_unwrap_options(bpy.types.Operator):
         return not why
 
     def invoke(self, context, event):
-        return context.window_manager.invoke_props_dialog(self, width=360, confirm_text=shown("Unwrap"))
+        return context.window_manager.invoke_props_dialog(self, width=360, confirm_text=on_button("Unwrap"))
 
     def draw(self, context):
         from .presets import UV_PT_conformal_presets

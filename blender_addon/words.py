@@ -30,6 +30,11 @@ def shown(text: str, **values: object) -> str:
     return pgettext_iface(text).format(**values)
 
 
+def on_button(text: str) -> str:
+    """The name of what a button does, as Blender looks it up."""
+    return pgettext_iface(text, "Operator")
+
+
 def counted(count: int, one: str, many: str, **values: object) -> str:
     """A report with a number in it, `{count}`, in its singular or its plural."""
     return told(one if count == 1 else many, count=count, **values)

@@ -14,6 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, sys.argv[1])
 MODULE = "bl_ext.user_default.conformal_uv"
+OPTIONAL = {"dask", "distributed", "mpi4py", "petsc4py"}  # of what one process does not need
 
 
 def install(path):
@@ -57,13 +58,17 @@ def use(folder):
 
 
 def every_module(package):
-    """Whether all that is carried can be imported, each of its names and each module."""
+    """Whether all that is carried can be imported, each of its names, and each module that needs nothing optional."""
     home = Path(package.__file__).parent
     for name in package.__all__:
         getattr(package, name)
     for path in home.rglob("*.py"):
         parts = path.relative_to(home).with_suffix("").parts
-        import_module(".".join((package.__name__, *(part for part in parts if part != "__init__"))))
+        try:
+            import_module(".".join((package.__name__, *(part for part in parts if part != "__init__"))))
+        except ModuleNotFoundError as error:
+            if error.name not in OPTIONAL:
+                raise
     return not any(name.partition(".")[0] == "conformal_uv" for name in sys.modules)
 
 
