@@ -175,3 +175,21 @@ def test_pictures_of_all_shapes(tmp_path: Path, shape: str):
     source = saved(tmp_path / "in.obj", *mask(300))
     run(shape, source, tmp_path / "out.obj", "--plot", tmp_path / "p.png", "-q")
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_packing_is_that_of_the_library(tmp_path: Path, shape: str):
+    """All options of packing, on two pieces."""
+    V, F = mask(60)
+    V, F = np.concatenate((V, 0.4 * V + [4.0, 0.0, 0.0])), np.concatenate((F, F + len(V)))
+    how = ["--margin", "4", "--margin-method", "pixels", "--image-size", "256", "--pack-rotation", "any"]
+    how += ["--pack-shape", "convex", "--tile", "1012"]
+    options = {"margin": 4, "margin_method": "pixels", "image_size": 256, "pack_rotation": "any"}
+    options |= {"pack_shape": "convex", "tile": 1012, "upright": "z"}
+    source = saved(tmp_path / "in.obj", V, F)
+    for more, also in (([], {}), (["--keep-scale"], {"keep_scale": True})):
+        run(shape, source, tmp_path / "out.obj", *how, *more, "-q")
+        uv = read_mesh(tmp_path / "out.obj").corner_uv
+        expected = cuv.unwrap(V, F, shape=shape, **options, **also)
+        np.testing.assert_allclose(uv, expected.uv, atol=1e-12)
+        assert uv.min() >= 1.0 and (more or uv.max() <= 2.0)

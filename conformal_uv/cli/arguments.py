@@ -7,16 +7,34 @@ from typing import Annotated
 
 import typer
 
-from ..options import Backend, Closed, Holes, Laplacian, NonManifold, Orientation, Place, Repair, Upright
+from ..options import (
+    Backend,
+    Closed,
+    Holes,
+    Laplacian,
+    MarginMethod,
+    NonManifold,
+    Orientation,
+    PackRotation,
+    PackShape,
+    Place,
+    Repair,
+    Upright,
+)
 
 __all__ = [
     "BackendName",
     "ClosedPieces",
     "FoldedFaces",
     "HoleLoops",
+    "ImageSize",
     "JsonFile",
+    "KeepScale",
+    "MarginMeaning",
     "MeshFormat",
     "NonManifoldParts",
+    "PackedShape",
+    "PackedTurns",
     "PageFile",
     "PictureFile",
     "PlaceInSquare",
@@ -26,6 +44,7 @@ __all__ = [
     "Split",
     "SquareMargin",
     "Target",
+    "UdimTile",
     "UpAxis",
     "Weights",
     "Winding",
@@ -50,6 +69,17 @@ SquareMargin = Annotated[
     float | None,
     typer.Option(metavar="M", help="Least distance between charts and to the square's sides, a part of its side."),
 ]
+MarginMeaning = Annotated[
+    MarginMethod,
+    typer.Option(help="What the margin is: between charts; or around each, as in Blender, or in pixels of an image."),
+]
+ImageSize = Annotated[int, typer.Option(metavar="N", help="Pixels of the image's side, for --margin-method pixels.")]
+PackedTurns = Annotated[PackRotation, typer.Option(help="How charts may be turned to be packed.")]
+PackedShape = Annotated[PackShape, typer.Option(help="What of a chart is packed.")]
+KeepScale = Annotated[
+    bool, typer.Option("--keep-scale", help="Charts have the size of their surface, and are not scaled to the square.")
+]
+UdimTile = Annotated[int, typer.Option(metavar="1001...", help="Tile of the texture (UDIM); 1001 is the unit square.")]
 BackendName = Annotated[Backend, typer.Option(help="Factorization library.")]
 
 Split = Annotated[
