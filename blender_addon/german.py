@@ -92,6 +92,7 @@ GERMAN = {
     "Rotate": "Drehen",
     "Rotation": "Drehung",
     "Rotation {rotation}°   X {x}   Y {y}": "Drehung {rotation}°   X {x}   Y {y}",
+    "Rotation {rotation}°   X {x}   Y {y}   Z {z}": "Drehung {rotation}°   X {x}   Y {y}   Z {z}",
     "Scaled": "Skaliert",
     "Schwarz": "Schwarz",
     "Select Flipped or Collapsed": "Umgeklappte oder leere auswählen",
@@ -110,7 +111,6 @@ GERMAN = {
     "The first unwrap from the window starts with": "Das erste Abwickeln aus dem Fenster beginnt mit",
     "Too small to store": "Zu klein zum Speichern",
     "Toward": "Hin zu",
-    "Toward {place}": "Hin zu {place}",
     "UDIM Tile": "UDIM-Kachel",
     "UV Map": "UV-Karte",
     "UVs": "UVs",
@@ -463,9 +463,10 @@ GERMAN = {
         "Ziehen: schieben   Mausrad: drehen   Umschalt: genau   Ziffern, Tab, R X Y: eingeben   Eingabe, Klick: "
         "bestätigen   Esc, Rechtsklick: abbrechen"
     ),
-    "Drag: turn   Wheel: magnify here   Shift: precise   Enter, click: confirm   Esc, right click: cancel": (
-        "Ziehen: drehen   Mausrad: hier vergrößern   Umschalt: genau   Eingabe, Klick: bestätigen   Esc, "
-        "Rechtsklick: abbrechen"
+    "Drag: turn   Wheel: magnify here   Shift: precise   Numbers, Tab, R X Y Z: type   Enter, click: confirm   Esc, "
+    "right click: cancel": (
+        "Ziehen: drehen   Mausrad: hier vergrößern   Umschalt: genau   Ziffern, Tab, R X Y Z: eingeben   Eingabe, "
+        "Klick: bestätigen   Esc, Rechtsklick: abbrechen"
     ),
     "Face {face}: {why}": "Fläche {face}: {why}",
     "Flattened {done} of {count} mesh": "{done} von {count} Netz flach gelegt",

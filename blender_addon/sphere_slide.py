@@ -125,14 +125,35 @@ class SphereSlide:
         boost = SphereMoebius.of(-math.tanh(rapidity) * self._direction(uv))
         self.moebius = _limited(boost @ self.moebius)
 
+    @property
+    def degrees(self) -> float:
+        """By how much the sphere is turned about its upright axis, as the last of three Euler angles."""
+        _, rotation = self.moebius.toward_and_rotation()
+        return math.degrees(math.atan2(rotation[1, 0], rotation[0, 0]))
+
+    def put(self, name: str, value: float) -> None:
+        """Set "rotation" (degrees about the upright axis), or "x", "y" or "z" of where points move to, to a number."""
+        toward, rotation = self.moebius.toward_and_rotation()
+        if name == "rotation":
+            angle = math.radians(value - self.degrees)
+            cosine, sine = math.cos(angle), math.sin(angle)
+            rotation = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]]) @ rotation
+        else:
+            toward = toward.copy()
+            toward["xyz".index(name)] = value
+        self.moebius = SphereMoebius.of(_short(toward), rotation)
+
     def _direction(self, uv: tuple[float, float]) -> NDArray[np.float64]:
         return on_sphere(np.array([uv]), octahedron=self._octahedron)[0]
 
 
 def _limited(moebius: SphereMoebius) -> SphereMoebius:
     toward, rotation = moebius.toward_and_rotation()
-    length = float(np.linalg.norm(toward))
-    return moebius if length <= MOST else SphereMoebius.of(toward * (MOST / length), rotation)
+    return moebius if np.linalg.norm(toward) <= MOST else SphereMoebius.of(_short(toward), rotation)
+
+
+def _short(toward: NDArray[np.float64]) -> NDArray[np.float64]:
+    return toward * (MOST / max(float(np.linalg.norm(toward)), MOST))
 
 
 def _positions(key: bpy.types.ShapeKey) -> NDArray[np.float32]:

@@ -6,10 +6,14 @@ from mathutils import Euler, Matrix
 from .dragged import Dragged, drag_refusal
 from .edit_mode import target_objects
 from .mouse import in_uv_editor, passes, redraw, uv_at, window_region
+from .typed_numbers import TypedNumbers
 from .words import counted, shown, told
 
 STEP, PRECISE = 0.1, 0.1  # logarithm of the scale of a notch of the wheel; of everything while Shift is held
-HELP = "Drag: turn   Wheel: magnify here   Shift: precise   Enter, click: confirm   Esc, right click: cancel"
+HELP = (
+    "Drag: turn   Wheel: magnify here   Shift: precise   Numbers, Tab, R X Y Z: type   "
+    "Enter, click: confirm   Esc, right click: cancel"
+)
 
 
 class UV_OT_conformal_sphere_slide(Dragged, bpy.types.Operator):
@@ -92,6 +96,7 @@ class UV_OT_conformal_sphere_slide(Dragged, bpy.types.Operator):
             return {"CANCELLED"}
         self._area, self._region = context.area, window_region(context.area)
         self._slide, self._last = SphereSlide(flat[0].stored.octahedron), None
+        self._typed = TypedNumbers(("rotation", "x", "y", "z"))
         self._live = LiveSpheres(context, self._spheres)
         self._show(context)
         context.window_manager.modal_handler_add(self)
@@ -117,6 +122,10 @@ class UV_OT_conformal_sphere_slide(Dragged, bpy.types.Operator):
             return {"CANCELLED"}
         elif self._confirmed(event):
             return self._finish(context)
+        elif event.value == "PRESS" and self._typed.take(event.type, event.ascii):
+            if self._typed.value is not None:
+                self._slide.put(self._typed.field, self._typed.value)
+            self._show(context)
         elif passes(event):
             return {"PASS_THROUGH"}
         return {"RUNNING_MODAL"}
@@ -132,7 +141,12 @@ class UV_OT_conformal_sphere_slide(Dragged, bpy.types.Operator):
         """Write the present state, and tell it."""
         self._live.show(self._slide.moebius)
         toward, _ = self._slide.moebius.toward_and_rotation()
-        text = shown("Toward {place}", place="  ".join(f"{part:.3f}" for part in toward))
+        number = self._typed.shown
+        text = shown(
+            "Rotation {rotation}°   X {x}   Y {y}   Z {z}",
+            rotation=number("rotation", self._slide.degrees, 1),
+            **{name: number(name, part) for name, part in zip("xyz", toward.tolist(), strict=True)},
+        )
         self._area.header_text_set(f"{shown('Conformal Sphere Slide')}   {text}")
         context.workspace.status_text_set(f"{text}      {shown(HELP)}")
         redraw(context, "IMAGE_EDITOR")

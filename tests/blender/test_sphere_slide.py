@@ -119,6 +119,30 @@ def test_dragged_and_magnified(egg, operator):
     assert (np.abs(scenes.uvs(egg) - uv).max(axis=1) < 1e-4).mean() > 0.98
 
 
+def test_numbers_typed(egg, operator):
+    operator.press("S", at=(0.5, 0.5))  # from the menu
+    for key, character in (("NINE", "9"), ("ZERO", "0"), ("Z", "z"), ("MINUS", "-"), ("PERIOD", "."), ("FIVE", "5")):
+        assert operator.press(key, ascii=character) == {"RUNNING_MODAL"}
+    assert "Rotation 90.0" in operator.headers[-1] and "Z [-.5|]" in operator.headers[-1]
+    assert operator.press("RET") == {"FINISHED"}
+    assert operator.toward == pytest.approx([0.0, 0.0, -0.5], abs=1e-6)
+    assert tuple(operator.rotation) == pytest.approx((0.0, 0.0, np.pi / 2), abs=1e-6)
+
+
+def test_typed_numbers_keep_the_rest_and_stay_within_reach(addon):
+    slide = importlib.import_module(f"{addon.__name__}.sphere_slide").SphereSlide(False)
+    slide.magnify((0.3, 0.6), 0.4)
+    toward, _ = slide.moebius.toward_and_rotation()
+    slide.put("rotation", -120.0)
+    slide.put("y", 0.125)
+    after, _ = slide.moebius.toward_and_rotation()
+    assert after == pytest.approx([toward[0], 0.125, toward[2]], abs=1e-12)
+    assert slide.degrees == pytest.approx(-120.0)
+    slide.put("x", 7.0)
+    after, _ = slide.moebius.toward_and_rotation()
+    assert 0.99 < np.linalg.norm(after) < 1.0
+
+
 @pytest.mark.parametrize("mode", [scenes.leave, scenes.edit])
 @pytest.mark.parametrize("key", ["ESC", "RIGHTMOUSE"])
 def test_cancelled_restores_every_bit(egg, operator, mode, key):
