@@ -244,7 +244,7 @@ def test_warnings_of_the_library_stand_in_the_row(tmp_path) -> None:
 def flown(memory: int = 0, alone: bool = False) -> Any:
     from conformal_uv.batches.flight import _Flown
 
-    return _Flown(Task("a", "b", Plan.of("disk", {}), memory), alone)
+    return _Flown([Task("a", "b", Plan.of("disk", {}), 10, memory)], alone)
 
 
 def flight_of(client: Any, memory: int | None = None, threads: int = 1) -> Any:
@@ -280,13 +280,15 @@ def test_who_dies_with_others_is_tried_alone_and_then_set_aside(client) -> None:
     from distributed.scheduler import KilledWorker
 
     error = KilledWorker("a", None, 3)  # of a scheduler as it is by default
-    again, row = landed(client, flown(), "error", error)
-    assert row is None and (again.alone, again.deaths) == (True, 4)
-    _, row = landed(client, again, "error", error)
+    rows, (again,) = landed(client, flown(), "error", error)
+    assert not rows and (again.alone, again.deaths) == (True, 4)
+    (row,), _ = landed(client, again, "error", error)
     assert row.status == Outcome.KILLED and "8 workers died" in row.message
 
 
 def test_what_else_may_come_of_a_task(client) -> None:
+    from distributed.scheduler import KilledWorker
+
     for status, error in (("cancelled", RuntimeError()), ("lost", RuntimeError()), ("finished", OSError("closed"))):
         with pytest.raises(ConnectionError, match="has gone away"):
             landed(client, flown(), status, error)
@@ -295,8 +297,31 @@ def test_what_else_may_come_of_a_task(client) -> None:
     for error in (wrapped, wrapped.__cause__):
         with pytest.raises(cuv.MissingDependencyError, match="install it there"):
             landed(client, flown(), "error", error)
-    _, row = landed(client, flown(), "error", ValueError("?"))
-    assert (row.status, row.error, row.message) == (Outcome.FAILED, "ValueError", "?")
+    (row,), again = landed(client, flown(), "error", ValueError("?"))
+    assert (row.status, row.error, row.message) == (Outcome.FAILED, "ValueError", "?") and not again
+    two = flown()
+    two.tasks *= 2
+    rows, again = landed(client, two, "error", ValueError("?"))
+    assert not rows and [(len(one.tasks), one.alone, one.deaths) for one in again] == [(1, False, 0)] * 2
+    rows, again = landed(client, two, "error", KilledWorker("a", None, 0))
+    assert not rows and [(len(one.tasks), one.alone, one.deaths) for one in again] == [(1, True, 1)] * 2
+
+
+def test_small_meshes_are_handed_over_together() -> None:
+    from conformal_uv.batches.bundles import MOST, VERTICES, bundles
+
+    def of(sizes: list[int], threads: int) -> list[list[int]]:
+        plan = Plan.of("disk", {})
+        tasks = [Task(str(size), "", plan, size, 100 * size) for size in sizes]
+        return [[task.vertices for task in bundle] for bundle in bundles(tasks, threads)]
+
+    assert of([5, 90_000, 7], 1) == [[90_000], [7], [5]]  # as many as there are: each thread has work
+    assert of([], 2) == []
+    many = of([1000] * 1999 + [30_000], 2)
+    assert sum(many, []) == [30_000] + [1000] * 1999
+    assert max(sum(bundle) for bundle in many) == VERTICES
+    assert {len(bundle) for bundle in of([0] * 6400, 2)} == {MOST}
+    assert len(of([1000] * 160, 2)) == 16
 
 
 def test_workers_that_are_large_enough(client) -> None:

@@ -36,8 +36,7 @@ def estimated_vertices(path: str) -> int:
     return size // BYTES.get(suffixes[-1] if suffixes else "", OTHERS)
 
 
-def estimated_memory(path: str, kind: MapKind) -> int:
-    """Bytes that a process takes that maps this file, about, rather too many than too few."""
-    n = estimated_vertices(path)
+def estimated_memory(n: int, kind: MapKind) -> int:
+    """Bytes that a process takes that maps a mesh of so many vertices, about, rather too many than too few."""
     factorizations = 2 if kind is MapKind.SPHERE else 1
     return PROCESS + A_VERTEX * n + factorizations * factorization_memory(n, "cholmod")

@@ -1,8 +1,8 @@
 """The tasks of a batch on Dask: as many at once as there are processors and memory, their rows as they come.
 
 A scheduler tells of each task on a worker that died that it may be the cause, those that only waited there included.
-Such a task is suspected, and run again when all others are done and nothing else is in work, so that it alone is to
-blame if the next worker dies too. After three deaths it is set aside.
+Such a task is suspected, each mesh of it by itself, and run again when all others are done and nothing else is in work,
+so that it alone is to blame if the next worker dies too. After three deaths it is set aside.
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ from distributed.scheduler import KilledWorker
 
 from .._version import __version__
 from ..errors import MissingDependencyError
+from .bundles import bundles
 from .cluster import Fleet
 from .row import BatchRow, Outcome
 from .task import Task
-from .worked import worked
+from .worked import worked_together
 
 __all__ = ["rows_in_flight"]
 
@@ -31,9 +32,18 @@ AHEAD = 2  # tasks for each thread: one in work and one that waits beside it
 
 @dataclass
 class _Flown:
-    task: Task
+    tasks: list[Task]
     alone: bool
     deaths: int = 0
+
+    @property
+    def memory(self) -> int:
+        """Of the largest, for they are done one after the other."""
+        return max(task.memory for task in self.tasks)
+
+    def apart(self, alone: bool, deaths: int) -> list[_Flown]:
+        """Each mesh by itself."""
+        return [_Flown([task], alone, deaths) for task in self.tasks]
 
 
 def rows_in_flight(fleet: Fleet, tasks: Iterable[Task]) -> Iterator[BatchRow]:
@@ -46,7 +56,8 @@ def rows_in_flight(fleet: Fleet, tasks: Iterable[Task]) -> Iterator[BatchRow]:
     ConnectionError
         The scheduler has gone away.
     """
-    waiting = deque(_Flown(task, False) for task in sorted(tasks, key=lambda task: -task.memory))
+    fleet.look()
+    waiting = deque(_Flown(bundle, False) for bundle in bundles(tasks, fleet.threads))
     suspects: deque[_Flown] = deque()
     flight = _Flight(fleet)
     try:
@@ -56,11 +67,10 @@ def rows_in_flight(fleet: Fleet, tasks: Iterable[Task]) -> Iterator[BatchRow]:
                 flight.start(waiting.popleft())
             if suspects and not flight:
                 flight.start(suspects.popleft())
-            flown, row = flight.landed()
-            if row is not None:
-                yield row
-            else:
-                suspects.append(flown)
+            rows, again = flight.landed()
+            yield from rows
+            for flown in again:
+                (suspects if flown.alone else waiting).append(flown)
     finally:
         flight.cancel()
 
@@ -83,34 +93,34 @@ class _Flight:
         if not self._flown:
             return True
         whole = self._fleet.memory
-        fits = whole is None or self._memory + flown.task.memory <= whole
+        fits = whole is None or self._memory + flown.memory <= whole
         return fits and len(self._flown) < AHEAD * self._fleet.threads
 
     def start(self, flown: _Flown) -> None:
         """Hand it to the scheduler."""
         self._count += 1
-        workers = self._fleet.large_enough(flown.task.memory)
+        workers = self._fleet.large_enough(flown.memory)
         future = self._fleet.client.submit(
-            worked,
-            flown.task,
+            worked_together,
+            flown.tasks,
             key=f"{self._name}-{self._count}",
             pure=False,
             workers=workers,
             allow_other_workers=workers is not None,
         )
         self._flown[future] = flown
-        self._memory += flown.task.memory
+        self._memory += flown.memory
         self._completed.add(future)
 
-    def landed(self) -> tuple[_Flown, BatchRow | None]:
-        """The next that ends, and its row; none if it is to be run again, alone."""
+    def landed(self) -> tuple[list[BatchRow], list[_Flown]]:
+        """The rows of the next that ends, or what of it is to be run again."""
         future = next(self._completed)
         flown = self._flown.pop(future)
-        self._memory -= flown.task.memory
+        self._memory -= flown.memory
         if future.status in ("cancelled", "lost"):
             raise ConnectionError(GONE)
         try:
-            return flown, future.result()
+            return future.result(), []
         except KilledWorker as error:
             return self._died(flown, error)
         except OSError as error:  # of the connection: a task tells of its own in its row
@@ -120,16 +130,18 @@ class _Flight:
         except Exception as error:
             if isinstance(error.__cause__, ImportError):
                 raise _missing(error.__cause__) from error
-            return flown, _row(flown.task, Outcome.FAILED, type(error).__name__, str(error))
+            if len(flown.tasks) > 1:
+                return [], flown.apart(False, flown.deaths)
+            return [_row(flown.tasks[0], Outcome.FAILED, type(error).__name__, str(error))], []
 
-    def _died(self, flown: _Flown, error: KilledWorker) -> tuple[_Flown, BatchRow | None]:
+    def _died(self, flown: _Flown, error: KilledWorker) -> tuple[list[BatchRow], list[_Flown]]:
         deaths = flown.deaths + error.allowed_failures + 1
         if flown.alone and deaths >= DEATHS:
             told = (
                 f"{deaths} workers died while they had this mesh, the last with nothing else in work; it is set aside"
             )
-            return flown, _row(flown.task, Outcome.KILLED, "KilledWorker", told)
-        return _Flown(flown.task, True, deaths), None
+            return [_row(task, Outcome.KILLED, "KilledWorker", told) for task in flown.tasks], []
+        return [], flown.apart(True, deaths)
 
     def cancel(self) -> None:
         """Give up what has not ended."""

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import OptionError
 from ..files import READABLE, WRITABLE
-from .estimate import estimated_memory
+from .estimate import estimated_memory, estimated_vertices
 from .manifest import MANIFESTS, Entry, read_manifest
 from .plan import Plan
 from .row import BatchRow
@@ -108,7 +108,8 @@ def _task(entry: Entry, out: Path, plan: Plan, before: Mapping[str, BatchRow]) -
     target = os.path.abspath(out / _written(Path(entry.output), own.given))
     if os.path.realpath(target) == os.path.realpath(entry.input):
         raise OptionError(f"{entry.input} would be replaced by its map; choose another folder for the maps.")
-    return Task(entry.input, target, own, estimated_memory(entry.input, own.kind), before.get(target))
+    n = estimated_vertices(entry.input)
+    return Task(entry.input, target, own, n, estimated_memory(n, own.kind), before.get(target))
 
 
 def _written(path: Path, given: Mapping[str, Any]) -> Path:

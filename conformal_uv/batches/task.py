@@ -19,8 +19,8 @@ class Task:
     source, target : str
         Absolute paths.
     plan : Plan
-    memory : int
-        Bytes that a process takes for it, about.
+    vertices, memory : int
+        Of the mesh, and bytes that a process takes for it; about, and rather too many.
     before : BatchRow, optional
         What an earlier run told of this input.
     """
@@ -28,5 +28,6 @@ class Task:
     source: str
     target: str
     plan: Plan
+    vertices: int = 0
     memory: int = 0
     before: BatchRow | None = None

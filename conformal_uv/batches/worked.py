@@ -7,7 +7,7 @@ import logging
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -31,12 +31,17 @@ from .sphere_file import sphere_file, stored_sphere
 from .task import Task
 from .unwrapped_file import stored_uv, unwrapped_file
 
-__all__ = ["worked"]
+__all__ = ["worked", "worked_together"]
 
 LOG = logging.getLogger(__name__.rsplit(".", 2)[0])  # of the whole package, whatever it is called where it is carried
 LASTING = (MeshError, FileFormatError, OptionError)  # of reading and mapping, which depend on the input alone
 PASSING = (SolverError, MissingDependencyError)
 PIECE = 1 << 22
+
+
+def worked_together(tasks: Sequence[Task]) -> list[BatchRow]:
+    """The same for several, one after the other."""
+    return [worked(task) for task in tasks]
 
 
 def worked(task: Task) -> BatchRow:
