@@ -317,9 +317,10 @@ def test_small_meshes_are_handed_over_together() -> None:
 
     assert of([5, 90_000, 7], 1) == [[90_000], [7], [5]]  # as many as there are: each thread has work
     assert of([], 2) == []
-    many = of([1000] * 1999 + [30_000], 2)
-    assert sum(many, []) == [30_000] + [1000] * 1999
-    assert max(sum(bundle) for bundle in many) == VERTICES
+    many = of([1000] * 6000 + [VERTICES + 1], 2)
+    assert sum(many, []) == [VERTICES + 1] + [1000] * 6000 and len(many[0]) == 1
+    assert max(sum(bundle) for bundle in many[1:]) == MOST * 1000
+    assert max(sum(bundle) for bundle in of([5000] * 1000, 2)) == VERTICES
     assert {len(bundle) for bundle in of([0] * 6400, 2)} == {MOST}
     assert len(of([1000] * 160, 2)) == 16
 

@@ -8,8 +8,8 @@ from .task import Task
 
 __all__ = ["bundles"]
 
-# A task costs scheduler, client and worker as much processor time together as a map of 1,500 vertices: 600 meshes of 1,000
-# to 20,000 vertices took 35.5 s on two workers by themselves, 31.3 s in bundles.
+# A task costs scheduler, client and worker together as much processor time as a map of 1,500 vertices: 600 meshes of
+# 1,000 to 20,000 vertices took 35.5 s on two workers by themselves, 31.3 s in bundles.
 VERTICES = 150_000  # as estimated: half a second of work
 MOST = 64  # meshes, for files of no size
 PARTS = 8  # bundles for each thread, at the least where there are as many meshes
