@@ -166,8 +166,9 @@ class Backend(Choice):
 
 
 class DistributedSolver(Choice):
-    """What solves the linear systems of the backend "petsc"."""
+    """What solves the linear systems of the backend "petsc"; by itself hypre where PETSc has it, else gamg."""
 
+    AUTO = "auto"
     GAMG = "gamg"
     HYPRE = "hypre"
     MUMPS = "mumps"

@@ -72,6 +72,8 @@ def same_maps(ranks: Ranks) -> dict[str, Any]:
         "boundary vertex": difference(ranks, *round_, boundary_vertex=int(loop[5])),
         "pins": difference(ranks, *round_, pins=(int(loop[3]), int(loop[third]), int(loop[2 * third]))),
         "hexagon": difference(ranks, hexagon, spokes),
+        "gamg": difference(ranks, *flat, solver="gamg"),
+        "gamg newton": difference(ranks, *flat, solver="gamg", method="newton"),
         "hypre": difference(ranks, *flat, solver="hypre"),
         "mumps": difference(ranks, *flat, solver="mumps"),
     }

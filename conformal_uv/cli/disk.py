@@ -94,7 +94,7 @@ def disk(
     backend: BackendName = Backend.AUTO,
     solver: Annotated[
         DistributedSolver, typer.Option(help="Of --backend petsc, which maps one surface spread over MPI processes.")
-    ] = DistributedSolver.GAMG,
+    ] = DistributedSolver.AUTO,
     split: Split = False,
     format: MeshFormat = None,
     json_file: JsonFile = None,

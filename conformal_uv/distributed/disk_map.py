@@ -106,7 +106,7 @@ def distributed_disk_map(
     relative_tolerance: float = 0.0,
     max_iterations: int = 50,
     laplacian: str = "auto",
-    solver: str = "gamg",
+    solver: str = "auto",
     callback: Callback | None = None,
     **others: Any,
 ) -> DistributedDiskMap:
@@ -132,8 +132,9 @@ def distributed_disk_map(
         The surface's axis that is to point up in the map.
     laplacian : {"auto", "cotan"}
         The triangles' own cotangents. Where some are negative the map may fold: `DistributedDiskMap.flipped`.
-    solver : {"gamg", "hypre", "mumps"}
-        Conjugate gradients with PETSc's multigrid or with BoomerAMG, or MUMPS's factorization.
+    solver : {"auto", "gamg", "hypre", "mumps"}
+        Conjugate gradients with PETSc's multigrid or with hypre's BoomerAMG, or MUMPS's factorization; "auto" is
+        "hypre" where PETSc was built with it, else "gamg".
     callback : callable, optional
         Called on every process that passes one; all stop when one returns False.
 

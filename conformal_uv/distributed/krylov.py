@@ -77,12 +77,12 @@ class KrylovSystem:
         indptr: NDArray[np.integer],
         columns: NDArray[np.integer],
         data: Real,
-        solver: DistributedSolver = DistributedSolver.GAMG,
+        solver: DistributedSolver = DistributedSolver.AUTO,
     ) -> None:
         self._petsc = PETSc = require_petsc()
-        self._ranks, self.solver = ranks, solver
+        self._ranks, self.solver = ranks, _chosen(PETSc, solver)
         self.steps: list[int] = []
-        self._direct = solver is DistributedSolver.MUMPS
+        self._direct = self.solver is DistributedSolver.MUMPS
         own = len(indptr) - 1
         kind = PETSc.IntType
         csr = indptr.astype(kind, copy=False), columns.astype(kind, copy=False), data
@@ -99,7 +99,7 @@ class KrylovSystem:
             self._ksp.setFromOptions()
             self._ksp.setUp()
         except PETSc.Error as error:
-            raise SolverError(f"PETSc can not prepare {solver}: {_reason(error)}. Choose another solver.") from error
+            raise SolverError(f"PETSc can not prepare {self.solver}: {_reason(error)}. Choose another solver.") from error
         finally:
             for name in self._ours:
                 self._given.delValue(name)
@@ -161,6 +161,12 @@ class KrylovSystem:
         left = float(self._ksp.getResidualNorm()) / norm
         log.warning("%s stopped at %.1e of its right-hand side, not %.1e", self.solver, left, TOLERANCE)
         return left < 1e3 * TOLERANCE
+
+
+def _chosen(petsc: Any, solver: DistributedSolver) -> DistributedSolver:
+    if solver is not DistributedSolver.AUTO:
+        return solver
+    return DistributedSolver.HYPRE if petsc.Sys.hasExternalPackage("hypre") else DistributedSolver.GAMG
 
 
 def _reason(error: Any) -> str:
