@@ -99,7 +99,9 @@ class KrylovSystem:
             self._ksp.setFromOptions()
             self._ksp.setUp()
         except PETSc.Error as error:
-            raise SolverError(f"PETSc can not prepare {self.solver}: {_reason(error)}. Choose another solver.") from error
+            raise SolverError(
+                f"PETSc can not prepare {self.solver}: {_reason(error)}. Choose another solver."
+            ) from error
         finally:
             for name in self._ours:
                 self._given.delValue(name)
