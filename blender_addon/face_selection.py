@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from conformal_uv import PolygonMesh
 
 from .edit_mode import object_mode, target_objects
-from .mesh_io import MeshArrays, read_mesh, read_uv, write_selection
+from .mesh_reading import MeshArrays, read_mesh, read_uv
+from .mesh_writing import write_selection
 
 
 def select_faces(context: bpy.types.Context, faces_of: Callable[[bpy.types.Mesh], NDArray[np.bool_]]) -> int:

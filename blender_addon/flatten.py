@@ -94,7 +94,8 @@ class OBJECT_OT_conformal_flatten(bpy.types.Operator):
 
         from conformal_uv import PolygonMesh, flattened
 
-        from .mesh_io import flat_mesh, read_mesh, read_uv, write_shape_key
+        from .mesh_reading import read_mesh, read_uv
+        from .mesh_writing import flat_mesh, write_shape_key
 
         mesh, layer = ob.data, ob.data.uv_layers.active.name
         arrays, uv = read_mesh(mesh, layer), read_uv(mesh, layer)

@@ -24,7 +24,7 @@ from conformal_uv.options import (
     Upright,
 )
 
-from .mesh_io import MeshArrays
+from .mesh_reading import MeshArrays
 from .pins import offered_pins
 from .properties import Options
 

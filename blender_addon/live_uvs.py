@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .edit_mode import object_mode
-from .mesh_io import read_uv
+from .mesh_reading import read_uv
 
 
 class LiveUVs:

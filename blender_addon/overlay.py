@@ -79,7 +79,8 @@ class VIEW3D_OT_conformal_overlay(bpy.types.Operator):
 
     def _show(self, mesh):
         """Write or remove the attributes of a mesh; whether there is something to show."""
-        from .mesh_io import read_mesh, read_uv, write_colors, write_face_floats
+        from .mesh_reading import read_mesh, read_uv
+        from .mesh_writing import write_colors, write_face_floats
 
         layer = mesh.uv_layers.active
         if self.quantity == "NONE":

@@ -12,7 +12,8 @@ from conformal_uv import PolygonMesh, pack_islands, pack_together
 from conformal_uv.options import MarginMethod, PackRotation, PackShape, PlaceOptions
 
 from .edit_mode import object_mode, target_objects
-from .mesh_io import read_mesh, read_uv, selected_uvs, write_uv
+from .mesh_reading import read_mesh, read_uv, selected_uvs
+from .mesh_writing import write_uv
 from .properties import Options, PackOptions
 from .tasks import Task
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from conformal_uv import Chart, DiskMap, RectangleMap
 
-from .mesh_io import MeshArrays
+from .mesh_reading import MeshArrays
 from .properties import Options
 
 CORNERS = 4

@@ -21,8 +21,10 @@ from conformal_uv import (
     triangulate,
 )
 
-from .mesh_io import MeshArrays, has_room, read_mesh, uv_layer_name, write_shape_key, write_uv
+from .mesh_reading import MeshArrays, read_mesh
+from .mesh_writing import write_shape_key, write_uv
 from .tasks import UNEVEN, even_scale
+from .uv_layers import has_room, uv_layer_name
 from .words import as_blender_says, told
 
 SHAPE_KEY = "Conformal Sphere"

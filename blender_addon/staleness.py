@@ -51,7 +51,7 @@ def _look_closer():
 def _holds(result) -> bool:
     """Whether every mesh and its UVs are as they were written."""
     from .edit_mode import settled_mesh
-    from .mesh_io import fingerprint
+    from .mesh_reading import fingerprint
 
     objects = {ob.data.session_uid: ob for ob in bpy.data.objects if ob.type == "MESH"}
     for told in result.objects:

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh_io import MeshArrays, read_mesh
+from .mesh_reading import MeshArrays, read_mesh
 
 ORIGIN = "conformal_uv_face"
 

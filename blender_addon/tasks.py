@@ -14,10 +14,11 @@ from conformal_uv import Unwrapped
 from .edit_mode import active_vertex, settled_mesh
 from .image_aspect import image_scale
 from .kept_work import Surface
-from .mesh_io import MeshArrays, has_room, holds_vectors, read_mesh, selected_uvs, uv_layer_name
+from .mesh_reading import MeshArrays, read_mesh, selected_uvs
 from .pins import HOW_TO_USE, NO_CORNERS, held_uvs, offered_pins, took_pins
 from .properties import Options
 from .subdivided import Subdivision, read_subdivided
+from .uv_layers import has_room, holds_vectors, uv_layer_name
 from .words import told
 
 NO_ACTIVE = "no vertex is active, the center is automatic; in Edit Mode, click a vertex first"

@@ -13,7 +13,8 @@ from conformal_uv import Callback, CancelledError, ConformalUVError
 from .edit_mode import object_mode
 from .image_aspect import image_scale
 from .kept_work import KEPT, KeptWork, Key
-from .mesh_io import fingerprint, write_uv
+from .mesh_reading import fingerprint
+from .mesh_writing import write_uv
 from .packing import placed, tile_corner
 from .properties import Options
 from .results import UnwrapResult, in_words_of_the_panel, object_result

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from conformal_uv import PolygonMesh, flipped_polygons
 
 from .edit_mode import settled_mesh
-from .mesh_io import read_corner_flags, read_mesh, read_selected_vertices, read_uv, selected_uvs
+from .mesh_reading import read_corner_flags, read_mesh, read_selected_vertices, read_uv, selected_uvs
 from .words import counted
 
 
