@@ -391,6 +391,18 @@ def test_parquet_has_the_rows_too(serial) -> None:
     assert {Path(row["input"]).name: row for row in rows} == {name: row.stored() for name, row in expected.items()}
 
 
+def test_one_run_at_a_time_in_a_folder(tmp_path) -> None:
+    pytest.importorskip("fcntl")
+    for name in "ab":
+        write_triangles(tmp_path / f"{name}.ply", *mask(300))
+    first = cuv.batch(tmp_path / "*.ply", out=tmp_path / "maps", workers=0)
+    next(first)
+    with pytest.raises(cuv.FileFormatError, match="another run is writing it"):
+        next(cuv.batch(tmp_path / "*.ply", out=tmp_path / "maps", workers=0))
+    first.close()
+    assert [row.kept for row in cuv.batch(tmp_path / "*.ply", out=tmp_path / "maps", workers=0)] == [True, False]
+
+
 def test_leftovers_of_the_dead_are_cleared(tmp_path) -> None:
     write_triangles(tmp_path / "a.ply", *mask(300))
     (tmp_path / "maps").mkdir()

@@ -15,6 +15,11 @@ from ..errors import FileFormatError
 from ..files import replaced_file
 from .row import BatchRow
 
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
+
 __all__ = ["LINES", "RowLog", "read_rows", "write_tables"]
 
 LINES, TABLE, PARQUET = "rows.jsonl", "rows.csv", "rows.parquet"
@@ -46,7 +51,7 @@ class RowLog:
     Raises
     ------
     FileFormatError
-        It can not be written.
+        It can not be written, or another run is at it.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -59,6 +64,11 @@ class RowLog:
                 self._stream.write(b"\n")
         except OSError as error:
             raise FileFormatError(f"{self._path}: can not be written: {error.strerror or error}") from error
+        if not _locked(self._stream):
+            self._stream.close()
+            raise FileFormatError(
+                f"{self._path}: another run is writing it; wait for its end, or choose another folder."
+            )
 
     def _last(self) -> bytes:
         self._stream.seek(-1, os.SEEK_END)
@@ -74,6 +84,19 @@ class RowLog:
     def close(self) -> None:
         """Close the file."""
         self._stream.close()
+
+
+def _locked(stream: IO[bytes]) -> bool:
+    """Whether the file is ours until it is closed; where files can not be locked, nobody asks."""
+    if fcntl is None:
+        return True
+    try:
+        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # a file system without locks
+        return True
+    return True
 
 
 def write_tables(folder: Path, rows: Iterable[BatchRow]) -> None:
