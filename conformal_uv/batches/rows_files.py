@@ -59,16 +59,16 @@ class RowLog:
         try:
             folder.mkdir(parents=True, exist_ok=True)
             self._stream: IO[bytes] = open(self._path, "ab+", buffering=0)  # noqa: SIM115
+            if not _locked(self._stream):
+                self._stream.close()
+                raise FileFormatError(
+                    f"{self._path}: another run is writing it; wait for its end, or choose another folder."
+                )
             end = self._stream.seek(0, os.SEEK_END)
             if end and self._last() != b"\n":  # an earlier run was cut off
                 self._stream.write(b"\n")
         except OSError as error:
             raise FileFormatError(f"{self._path}: can not be written: {error.strerror or error}") from error
-        if not _locked(self._stream):
-            self._stream.close()
-            raise FileFormatError(
-                f"{self._path}: another run is writing it; wait for its end, or choose another folder."
-            )
 
     def _last(self) -> bytes:
         self._stream.seek(-1, os.SEEK_END)
