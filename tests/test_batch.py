@@ -351,13 +351,13 @@ def test_the_largest_first(client, tmp_path) -> None:
     assert [row.vertices for row in rows] == sorted((row.vertices for row in rows), reverse=True)
 
 
-def test_a_scheduler_that_is_none() -> None:
+def test_a_scheduler_that_is_none(tmp_path) -> None:
     with pytest.raises(cuv.OptionError, match="pass an address"):
-        next(run.run_batch([], Path("."), scheduler=7))
+        next(run.run_batch([], tmp_path, scheduler=7))
     with pytest.raises(cuv.OptionError, match="leave out workers"):
-        run.run_batch([], Path("."), scheduler="tcp://127.0.0.1:1", workers=2)
+        run.run_batch([], tmp_path, scheduler="tcp://127.0.0.1:1", workers=2)
     with pytest.raises(cuv.OptionError, match="workers is -1"):
-        run.run_batch([], Path("."), workers=-1)
+        run.run_batch([], tmp_path, workers=-1)
 
 
 def test_without_dask_the_extra_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

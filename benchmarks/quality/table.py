@@ -59,7 +59,8 @@ def _checks(broken: list[Violation], count: int, changes: list[ChangeRow]) -> li
         if check == SAME and not changes:
             lines.append(f"- {check}: not measured.")
             continue
-        lines.append(f"- {check}: {f'{len(here)} exceptions:' if here else 'holds.'}")
+        told = f"{len(here)} exception{'s' * (len(here) > 1)}:" if here else "holds."
+        lines.append(f"- {check}: {told}")
         lines += [f"  - {v.mesh}: {v.told}" for v in here]
     return lines
 
@@ -85,7 +86,8 @@ def _worse(meshes: dict[str, dict[str, MapRow]], peers: list[Peer]) -> list[str]
         if auto.error or peer.mean < auto.mean - 0.005 or peer.folds < auto.folds:
             ours = auto.error or _numbers(f"{auto.mean:.3f}", auto.folds)
             lines.append(f"- {peer.mesh}: {peer.program} {_numbers(f'{peer.mean:g}', peer.folds)}, auto {ours}.")
-    told = f"Of {len(both)} figures of other programs on these meshes {len(lines)} are better in angles or in folds"
+    are = f"{len(lines)} {'is' if len(lines) == 1 else 'are'}"
+    told = f"Of {len(both)} figures of other programs on these meshes {are} better in angles or in folds"
     return [f"{told}{':' if lines else '.'}", "", *lines]
 
 
@@ -112,7 +114,7 @@ def _cell(row: MapRow | None) -> str:
 
 
 def _numbers(text: str, folds: int) -> str:
-    return f"{text} ({folds:,} folds)" if folds else text
+    return f"{text} ({folds:,} fold{'s' * (folds > 1)})" if folds else text
 
 
 def _times(rows: dict[str, MapRow]) -> str:

@@ -23,7 +23,7 @@ __all__ = ["report"]
 
 
 def report(
-    source: Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL or NPZ.")],
+    source: Annotated[Path, typer.Argument(metavar="IN", help="Mesh: OBJ, PLY, OFF, STL, NPZ, GLB ...")],
     format: Annotated[str | None, typer.Option(metavar="obj|ply|...", help="Of standard input (-).")] = None,
     json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all numbers.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table.")] = False,

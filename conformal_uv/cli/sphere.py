@@ -25,7 +25,7 @@ __all__ = ["sphere"]
 
 
 def sphere(
-    source: Annotated[Path, typer.Argument(metavar="IN", help="Closed mesh: OBJ, PLY, OFF, STL or NPZ.")],
+    source: Annotated[Path, typer.Argument(metavar="IN", help="Closed mesh: OBJ, PLY, OFF, STL, NPZ, GLB ...")],
     target: Annotated[Path, typer.Argument(metavar="OUT", help="Mesh on the unit sphere: OBJ, PLY or NPZ.")],
     method: Annotated[SphereMethod, typer.Option(help="How the map is found.")] = SphereMethod.AUTO,
     normalization: Annotated[

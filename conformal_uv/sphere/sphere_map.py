@@ -136,9 +136,10 @@ def _require_sphere(surface: Surface) -> None:
     if surface.pieces > 1:
         raise DisconnectedError(f"The mesh has {surface.pieces} pieces that do not touch; map each by itself.")
     if surface.loops:
-        advice = "Use disk_map()." if len(surface.loops) == 1 and surface.genus == 0 else "Fill its holes first."
+        loops = len(surface.loops)
+        advice = "Map it to a disk." if loops == 1 and surface.genus == 0 else "Fill its holes first."
         raise TopologyError(
-            f"The surface has {len(surface.loops)} boundary loops; a sphere has none. {advice}",
+            f"The surface has {loops} boundary loop{'s' * (loops > 1)}; a sphere has none. {advice}",
             [loop[0] for loop in surface.loops],
         )
     if surface.genus:
