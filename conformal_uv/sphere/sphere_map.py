@@ -137,7 +137,7 @@ def _require_sphere(surface: Surface) -> None:
         raise DisconnectedError(f"The mesh has {surface.pieces} pieces that do not touch; map each by itself.")
     if surface.loops:
         loops = len(surface.loops)
-        advice = "Map it to a disk." if loops == 1 and surface.genus == 0 else "Fill its holes first."
+        advice = "Use disk_map()." if loops == 1 and surface.genus == 0 else "Fill its holes first."
         raise TopologyError(
             f"The surface has {loops} boundary loop{'s' * (loops > 1)}; a sphere has none. {advice}",
             [loop[0] for loop in surface.loops],
