@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import io
-import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from chromium import launched
 from meshes_closed import icosphere
 
 import conformal_uv as cuv
@@ -17,20 +16,13 @@ from conformal_uv.mapped_mesh import mapped_mesh
 from conformal_uv.page import write_page
 from conformal_uv.samples import mask
 
-playwright = pytest.importorskip("playwright.sync_api")
-FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 SINGLE = 2.0**-23
 
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator:
-    found = os.environ.get("CONFORMAL_UV_CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
-    if found is None:
-        pytest.skip("no Chromium: apt-get install chromium, or set CONFORMAL_UV_CHROMIUM")
-    with playwright.sync_playwright() as run:
-        chromium = run.chromium.launch(executable_path=found, args=FLAGS)
+    with launched() as chromium:
         yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="module")

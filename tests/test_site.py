@@ -7,6 +7,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from chromium import launched
 
 from tools.errors import ReleaseError
 from tools.site import build_site
@@ -39,6 +40,19 @@ def test_formulas_are_mathml_and_none_is_left(site: Path) -> None:
         page = archive.read("method.html").decode()
     assert page.count("<math ") > 40
     assert r"\(" not in page and r"\[" not in page
+
+
+def test_the_search_works_without_a_server(site: Path, tmp_path: Path) -> None:
+    with zipfile.ZipFile(site) as archive:
+        archive.extractall(tmp_path)
+    with launched() as chromium:
+        page, complaints = chromium.new_page(), []
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.goto((tmp_path / "index.html").as_uri())
+        page.fill(".md-search__input", "crowding")
+        page.wait_for_selector(".md-search-result__item")
+        assert "Crowding" in page.inner_text(".md-search-result__list") and not complaints
 
 
 def test_built_again_it_is_the_same(site: Path, tmp_path: Path) -> None:
