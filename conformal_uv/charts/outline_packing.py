@@ -81,10 +81,8 @@ def _passes(angles: Real) -> list[_Pass]:
         passes += [_Pass(1.0, first)]
         passes += [_Pass(1.0, first, from_far=True)] if count <= MANY else []
         return passes + ([_Pass(1.0, angles)] if ways > FIRST_WAYS else [])
-    if ways == 1:
-        orders = ((from_far, longest) for longest in (False, True) for from_far in (False, True))
-        return passes + [_Pass(FINE, angles, *order) for order in orders]
-    return passes + [_Pass(1.0, angles), _Pass(1.0, angles, from_far=True)]
+    passes += [_Pass(1.0, angles), _Pass(1.0, angles, from_far=True)]
+    return passes + ([_Pass(1.0, angles, longest_first=True)] if ways == 1 else [])
 
 
 def _cells(outlines: Outlines, ways: int, side: float, part: float) -> int:
