@@ -38,7 +38,24 @@ def select_only(context: bpy.types.Context, chosen: set[bpy.types.Object], activ
 
 @contextmanager
 def settled_mesh(ob: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
-    """The object's mesh with all its attributes, as a copy that shares their arrays where it is in Edit Mode."""
+    """The object's mesh with all its attributes, as a copy that shares their arrays where it is in Edit Mode.
+
+    The copy is none of the file's meshes: for one that comes and goes Blender draws all views again. An object has one
+    at a time.
+    """
+    if ob.mode != "EDIT":
+        yield ob.data
+        return
+    ob.update_from_editmode()
+    try:
+        yield ob.to_mesh()
+    finally:
+        ob.to_mesh_clear()
+
+
+@contextmanager
+def settled_copy(ob: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """The same, the copy being one of the file's meshes: Blender then tells at once of what an undo has changed."""
     if ob.mode != "EDIT":
         yield ob.data
         return
