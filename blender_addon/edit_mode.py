@@ -37,34 +37,27 @@ def select_only(context: bpy.types.Context, chosen: set[bpy.types.Object], activ
 
 
 @contextmanager
-def settled_mesh(ob: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+def settled_mesh(ob: bpy.types.Object, in_file: bool = False) -> Iterator[bpy.types.Mesh]:
     """The object's mesh with all its attributes, as a copy that shares their arrays where it is in Edit Mode.
 
-    The copy is none of the file's meshes: for one that comes and goes Blender draws all views again. An object has one
-    at a time.
+    Parameters
+    ----------
+    in_file : bool
+        Whether the copy is one of the file's meshes. For one that comes and goes Blender draws all views again, and
+        tells at once of what an undo has changed. Else an object has one copy at a time.
     """
     if ob.mode != "EDIT":
         yield ob.data
         return
     ob.update_from_editmode()
-    try:
-        yield ob.to_mesh()
-    finally:
-        ob.to_mesh_clear()
-
-
-@contextmanager
-def settled_copy(ob: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
-    """The same, the copy being one of the file's meshes: Blender then tells at once of what an undo has changed."""
-    if ob.mode != "EDIT":
-        yield ob.data
-        return
-    ob.update_from_editmode()
-    copy = ob.data.copy()
+    copy = ob.data.copy() if in_file else ob.to_mesh()
     try:
         yield copy
     finally:
-        bpy.data.meshes.remove(copy)
+        if in_file:
+            bpy.data.meshes.remove(copy)
+        else:
+            ob.to_mesh_clear()
 
 
 def follows_uv_selection(context: bpy.types.Context) -> bool:

@@ -50,7 +50,7 @@ def _look_closer():
 
 def _holds(result) -> bool:
     """Whether every mesh and its UVs are as they were written."""
-    from .edit_mode import settled_copy
+    from .edit_mode import settled_mesh
     from .mesh_reading import fingerprint
 
     objects = {ob.data.session_uid: ob for ob in bpy.data.objects if ob.type == "MESH"}
@@ -60,7 +60,7 @@ def _holds(result) -> bool:
         ob = objects.get(told.mesh)
         if ob is None:
             return False
-        with settled_copy(ob) as mesh:
+        with settled_mesh(ob, in_file=True) as mesh:
             if fingerprint(mesh, told.uv_layer) != told.fingerprint:
                 return False
     return True

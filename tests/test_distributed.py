@@ -154,6 +154,9 @@ def test_the_command_refuses_in_one_line_and_leaves_the_output_alone(tmp_path: P
     assert done.returncode == 1 and done.stderr.count("is compressed") == 1
     done = mpiexec(2, "-m", "conformal_uv", "disk", str(source), str(target), "--backend", "petsc", "--closed", "cut")
     assert done.returncode == 1 and done.stderr.count("does without --closed cut") == 1
+    page = ["--html", str(tmp_path / "page.html"), "--pack-shape", "box"]
+    done = mpiexec(2, "-m", "conformal_uv", "disk", str(source), str(target), "--backend", "petsc", *page)
+    assert done.returncode == 1 and done.stderr.count("does without --pack-shape, --html") == 1
 
 
 def test_petsc_is_no_solver_of_one_process() -> None:

@@ -136,6 +136,7 @@ def disk(
                 "--split": split,
                 "--format": format is not None,
                 "--plot": plot is not None,
+                "--html": html_file is not None,
             },
             method=method,
             objective=objective,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import bpy
 import numpy as np
 import pytest
@@ -215,3 +217,17 @@ def test_save_and_reload(tmp_path):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "grid.blend"))
     assert scenes.shadowed(scenes.uvs(bpy.data.objects["Grid"])) == stored
+
+
+def test_reading_in_edit_mode_makes_no_mesh_of_the_file(addon):
+    """For one that comes and goes Blender draws all views again, however long that takes."""
+    edit_mode, reading = (import_module(f"{addon.__name__}.{name}") for name in ("edit_mode", "mesh_reading"))
+    ob = scenes.grid()
+    before, meshes = scenes.uvs(ob), set(bpy.data.meshes)
+    scenes.edit()
+    with edit_mode.settled_mesh(ob) as mesh:
+        assert set(bpy.data.meshes) == meshes and mesh != ob.data
+        assert np.array_equal(reading.read_uv(mesh, "UVMap"), before)
+    with edit_mode.settled_mesh(ob, in_file=True):
+        assert len(bpy.data.meshes) == len(meshes) + 1
+    assert set(bpy.data.meshes) == meshes
