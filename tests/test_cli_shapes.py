@@ -179,9 +179,15 @@ def test_pictures_of_all_shapes(tmp_path: Path, shape: str):
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_packing_is_that_of_the_library(tmp_path: Path, shape: str):
-    """All options of packing, on two pieces."""
-    V, F = mask(60)
-    V, F = np.concatenate((V, 0.4 * V + [4.0, 0.0, 0.0])), np.concatenate((F, F + len(V)))
+    """All options of packing, on pieces like an L, which lie in each other's bays where outlines are packed."""
+    x, y = (grid.ravel() for grid in np.meshgrid(np.arange(5.0), np.arange(5.0)))
+    k = np.array([5 * row + column for row in range(4) for column in range(4) if row < 1 or column < 1])
+    F = np.concatenate((np.column_stack((k, k + 1, k + 6)), np.column_stack((k, k + 6, k + 5))))
+    used, F = np.unique(F, return_inverse=True)
+    V, F = np.column_stack((x, y, 0 * x))[used], F.reshape(-1, 3)
+    count = len(V)
+    V = np.concatenate([size * V + [10.0 * number, 0.0, 0.0] for number, size in enumerate((1.0, 0.8, 0.7))])
+    F = np.concatenate([F + count * number for number in range(3)])
     how = ["--margin", "4", "--margin-method", "pixels", "--image-size", "256", "--pack-rotation", "any"]
     how += ["--pack-shape", "convex", "--tile", "1012"]
     options = {"margin": 4, "margin_method": "pixels", "image_size": 256, "pack_rotation": "any"}
